@@ -66,8 +66,8 @@ std::string gl_line() {
 /// Returns a line such as "meniscus 0.1.0+g2b6bb4a4c1d2".
 std::string version_line() { return std::string("meniscus ") + build_version(); }
 
-/// Returns that line, and lines about compiler, system, libraries as they are loaded, and the GL driver that `auto`
-/// would choose. Anything that cannot be found is reported in its line. Reads CUDA_VISIBLE_DEVICES like --device.
+/// Returns version_line(), and lines about compiler, system, loaded libraries and the GL driver that `auto` would
+/// choose. A line says if something cannot be found. Reads CUDA_VISIBLE_DEVICES like --device.
 std::string version_report() {
   return version_line() + row("sources", build_date()) +
          row("compiler", fmt::format("{}, {}", kCompiler, MENISCUS_BUILD_TYPE)) +
@@ -75,7 +75,7 @@ std::string version_report() {
          row("pictures", answer_of([] { return image_codec().library(); })) + row("GL", answer_of(gl_line));
 }
 
-/// Returns what to cite: the program as BibTeX, and the paper of its method, as in CITATION.cff.
+/// Returns the citation: the program as BibTeX, and the paper of its method, as in CITATION.cff.
 std::string citation() {
   return fmt::format(R"(@software{{meniscus,
   title   = {{Meniscus: exact solvent-excluded surfaces of molecules}},
@@ -139,8 +139,7 @@ constexpr Heading kHeadings[] = {{"Output", "Output"},
                                  {"Film", "Frames"},
                                  {"Options", "Options"}};
 
-/// The number of options above which a command's help shows only the common ones, a line each, unless all are
-/// requested.
+/// The number of options above which a command's short help shows only the common ones, one per line.
 constexpr std::size_t kFullHelp = 30;
 
 /// Formats help in the order people read: summary, examples, usage, options.
@@ -186,7 +185,7 @@ class ManualFormatter : public CLI::Formatter {
     return wrapped(short_ && option->nonpositional() ? first_sentence(words) : words, kHelpWidth - column_width_);
   }
 
-  /// CLI11 counts bytes; a unit such as Å has fewer letters than bytes.
+  /// Pads a line by its letters, because CLI11 counts bytes, and a unit such as Å has fewer letters than bytes.
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
     std::string text = CLI::Formatter::make_option(option, is_positional);
     const std::string name = "  " + make_option_name(option, is_positional) + make_option_opts(option);
@@ -258,7 +257,7 @@ std::vector<const char*> words_of(std::span<const char* const> typed) {
   return words;
 }
 
-/// True if the words request help or completion of options.
+/// Returns true if the words request help or completion of options.
 bool shows_options(std::span<const char* const> words) {
   constexpr std::array<std::string_view, 3> kAsking{"help", "completion", "--help-all"};
   return words.size() > 1 && std::ranges::find(kAsking, std::string_view(words[1])) != kAsking.end();

@@ -15,7 +15,7 @@ build=${MENISCUS_BUILD:-$PWD/build/test}
 seconds=170
 few=5
 
-# beginning of a path | test programs | tests of ctest that are scripts
+# Columns: beginning of a path | test programs | tests of ctest that are scripts.
 areas=(
   "core/text|structure_test volume_test|"
   "core/structure|color_test shapes_test|"
@@ -57,14 +57,14 @@ fi
 [[ -f $build/build.ninja ]] || cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=ON >/dev/null
 targets=$(ninja -C "$build" -t targets all)
 
-# programs_of PATTERN: test programs with an object whose path below tests/ fits, as in image/golden_test.cpp.
+# programs_of PATTERN: prints test programs with an object whose path below tests/ matches, as in image/golden_test.cpp.
 programs_of() {
   sed -nE 's|^tests/((.+)/)?CMakeFiles/([^/]+)\.dir/(.+)\.o: .*|\2/\4 \3|p' <<<"$targets" |
     awk -v pattern="^$1" '$1 ~ pattern {print $2}' | sort -u |
     while read -r name; do grep -qE "^tests/.*/$name: CXX_EXECUTABLE" <<<"$targets" && echo "$name" || true; done
 }
 
-# users_of HEADER: test programs with a source that includes it, by whatever way.
+# users_of HEADER: prints test programs with a source that includes it, directly or not.
 users_of() {
   ninja -C "$build" -t deps 2>/dev/null |
     awk -v header="$PWD/$1" -v short="/$1" '
@@ -109,7 +109,7 @@ needed=("${programs[@]}")
 cmake --build "$build" --target "${needed[@]:-meniscus}"
 echo "built in $SECONDS s"
 
-# run NAME COMMAND...: silent if all is well.
+# run NAME COMMAND...: runs a command, and prints its output only if it fails.
 end=$((SECONDS + seconds))
 run() {
   local name=$1 begin=$SECONDS code=0 said

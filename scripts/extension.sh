@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the Blender extension, one zip a platform, of the add-on and of the wheels of scripts/wheels.sh.
+# Makes the Blender extension, one zip per platform, from the add-on and the wheels of scripts/package/wheels.py.
 #
 #   scripts/extension.sh WHEELS_FOLDER OUT_FOLDER [PLATFORM...]     platforms: linux-x64, linux-arm64, windows-x64,
 #                                                                    macos-arm64, macos-x64; all by default

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Formats C++ with clang-format 14; with --check only says what would change.
+# Formats C++ with clang-format 14; with --check it only reports differences.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command -v clang-format-14 >/dev/null || { echo "clang-format is missing: apt-get install clang-format-14" >&2; exit 1; }

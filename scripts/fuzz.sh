@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes the readers: scripts/fuzz.sh SECONDS [TARGET...] (names of tests/fuzz/targets, and mns). Every target runs for
-# that time, as many at once as there are cores (or MENISCUS_JOBS). New inputs that fail are cut down and kept in
+# that time, as many at once as there are cores (or MENISCUS_JOBS). New inputs that fail are minimized and kept in
 # tests/fuzz/crashes/TARGET, where the tests replay them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -31,25 +31,25 @@ if ((${#built[@]} > 0)); then
   cmake --build build/fuzz -j "$jobs" --target "${built[@]}" >&2
 fi
 
-# In memory where there is some: targets write a file an execution, and a disk would have most of them wait for it.
+# The files are in memory if possible: targets write a file per execution, and would mostly wait for a disk.
 base=/dev/shm
 [[ -d $base && -w $base ]] || base=${TMPDIR:-/tmp}
 work=$(mktemp -d -p "$base")
 trap 'rm -rf "$work"' EXIT
 export TMPDIR=$work
-# More than 1,000 MB at once is refused: C libraries then return an error as on a machine without memory, while for C++,
-# which is what our own code asks in, the run ends.
+# Requests for more than 1,000 MB are refused: C libraries then return an error as on a machine without memory, while a
+# request of C++, which our own code uses, ends the run.
 export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1000:detect_leaks=1
 export UBSAN_OPTIONS=print_stacktrace=1
 limits=(-timeout=5 -rss_limit_mb=2048 -malloc_limit_mb=1024)
 
-# fuzz_one TARGET: its line of the table goes to $work/TARGET.line. Starts from the seeds and from all that failed once.
+# fuzz_one TARGET: writes its line to $work/TARGET.line. Starts from the seeds and from inputs that ever failed.
 fuzz_one() {
   local target=$1 program=build/fuzz/tests/fuzz/fuzz_$1 corpus=$work/$1.corpus found=$work/$1.found log=$work/$1.log
   local kept=tests/fuzz/crashes/$1 inputs=(tests/fuzz/seeds/"$1") options=() failures=0
   mkdir -p "$corpus" "$found"
   [[ -d $kept ]] && inputs+=("$kept")
-  # HDF5 itself loses the header of an object that it cannot read; its target counts what was left open instead.
+  # HDF5 itself leaks the header of an object that it cannot read; its target counts open objects instead.
   [[ $target != h5md ]] || export ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0
   [[ -f tests/fuzz/dictionaries/$target.dict ]] && options+=(-dict=tests/fuzz/dictionaries/"$target".dict)
   local status=0
@@ -64,7 +64,7 @@ fuzz_one() {
       >"$log.minimize" 2>&1 || true
     [[ -s $small ]] || cp "$input" "$small"
   done
-  # A target that ended for another reason, or that executed nothing, has shown nothing.
+  # A target that ended for another reason, or that executed nothing, has proved nothing.
   local executions rate
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   rate=$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")
@@ -76,7 +76,7 @@ fuzz_one() {
 printf '%-18s %12s %8s %12s\n' target executions exec/s 'new crashes'
 cases=0
 failures=0
-# mutate_mns: the same line for the readers of the Blender add-on, which are Python: cases by a seed, 300 a second.
+# mutate_mns: writes a line for the readers of the Blender add-on, which are Python: cases by a seed, 300 per second.
 mutate_mns() {
   local log=$work/mns.log begin=$SECONDS last
   /usr/bin/python3 tests/fuzz/mns_mutation_test.py exporters/blender/addon $((300 * seconds)) "$RANDOM" >"$log" 2>&1 || true

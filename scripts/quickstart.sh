@@ -12,7 +12,7 @@ step() { printf '\n== %s (%s s)\n' "$1" "$SECONDS"; }
 step "1/5 packages"
 to_build=("${build_packages[@]}" "${run_packages[@]}")
 others=("${film_packages[@]}" "${sample_packages[@]}" "${compare_packages[@]}")
-((EUID == 0)) || install_packages "${to_build[@]}" "${others[@]}"  # names all that are missing
+((EUID == 0)) || install_packages "${to_build[@]}" "${others[@]}"  # reports all that are missing
 install_packages "${to_build[@]}"
 
 step "2/5 build, and beside it the packages of the other programs"

@@ -3,9 +3,9 @@
 #
 #   scripts/release.sh [OUT]        OUT is a new folder; build/dist/VERSION by default
 #
-# Made are the source archive, the Debian packages and their source package, and, of each target that scripts/package/targets.sh has built from this commit, a
-# wheel and a Blender extension. SHA256SUMS has a line for each. Refused are a tree with changes, versions that disagree, and
-# a changelog without this version.
+# It makes the source archive, the Debian packages and their source package, and, for each target that
+# scripts/package/targets.sh has built from this commit, a wheel and a Blender extension. SHA256SUMS has a line for
+# each. It refuses a tree with changes, versions that disagree, and a changelog without this version.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/packages.sh
@@ -28,11 +28,11 @@ git archive --format=tar --prefix="meniscus-$version/" HEAD | gzip -n -9 >"$made
 echo "Debian packages" >&2
 MENISCUS_SITE=yes bash scripts/package/debian.sh "$made"
 
-# wheels.py takes what lies in build/targets; of another commit it would be another version's.
+# wheels.py takes what is in build/targets, which may be from another commit.
 commit=$(git rev-parse HEAD)
 built=()
 for names in x86_64-linux:linux-x64 aarch64-linux:linux-arm64 x86_64-windows:windows-x64 aarch64-macos:macos-arm64 x86_64-macos:macos-x64; do
-  target=${names%:*}  # and Blender's name of the same system
+  target=${names%:*}  # Blender has another name for the same system
   if [[ $(cat "build/targets/$target/commit" 2>/dev/null) == "$commit" ]]; then
     built+=("$names")
   else

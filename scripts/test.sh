@@ -29,7 +29,7 @@ cmake --build "$build"
 rm -rf "$results"
 mkdir -p "$results"
 
-# Tests wait for each other, for screens and for clocks. The idle processor time builds the next configuration.
+# Tests wait for each other, for screens and for clocks. The next configuration is built in the idle processor time.
 step "4/8 tests, and beside them the build with asserts and sanitizers, where warnings are errors"
 if [[ $clang ]]; then
   cmake --preset asan >/dev/null
@@ -40,7 +40,7 @@ ctest --test-dir "$build" -LE long --output-on-failure --timeout 600 -j "$(nproc
   --test-output-size-passed 16384 "$@" || failed+=("tests")
 
 # Blender's tests follow one another, so they run during the next steps.
-if [[ $(uname -m) == x86_64 ]]; then  # PyPI has no other
+if [[ $(uname -m) == x86_64 ]]; then  # PyPI has no other platform
   MENISCUS_INSIDE="inside_baked inside_blender inside_handed_on inside_sequence inside_shot" \
     bash scripts/check/newer_blenders.sh "$build/meniscus" newest >"$results/newest_blender.log" 2>&1 &
   newest_blender=$!
@@ -62,7 +62,7 @@ step "8/8 the add-on in the newest Blender"
 if [[ ${newest_blender:-} ]]; then
   wait "$newest_blender" && newest=0 || newest=$?
   cat "$results/newest_blender.log"
-  ((newest == 0 || newest == 77)) || failed+=("newest Blender")  # 77: no registry
+  ((newest == 0 || newest == 77)) || failed+=("newest Blender")  # 77: the registry was not reached
 fi
 
 step "what was tried"

@@ -35,7 +35,7 @@ struct Row {
   std::vector<StageTime> baseline;  ///< the sequential algorithm, reduced surface only; empty unless requested
 };
 
-/// Runs Sanner's sequential rolling probe: the part that classical programs find, and everything.
+/// Times Sanner's sequential rolling probe: the part that classical programs find, and the complete surface.
 std::vector<StageTime> roll(const std::vector<Ball>& balls, double probe_radius) {
   StageClock clock;
   for (const auto& [scope, name] :

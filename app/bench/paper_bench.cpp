@@ -79,10 +79,10 @@ class MoleculeBench {
     view_.set_coloring(coloring);
   }
 
-  /// Groups are timed one by one, with the GPU idle between them; whole frames are timed as a viewer draws them.
+  /// Measures groups one by one, with the GPU idle between them, and whole frames as a viewer draws them.
   FrameTime measure(Extent extent, FrameChange change) {
     view_.set_surface(settings_.probe_radius, extent);
-    draw();  // kernels are compiled and buffers allocated once
+    draw();  // the first picture compiles kernels and allocates buffers
     FrameTime result = median(draw_frames(extent, change, StageTiming::exact));
     result.total = median(draw_frames(extent, change, StageTiming::rough)).total;
     return result;
@@ -118,7 +118,6 @@ class MoleculeBench {
     return times;
   }
 
-  // Turns the camera about the vertical axis through the target.
   void turn_camera(double angle) {
     const glm::dvec3 axis = glm::normalize(camera_.up), d = first_position_ - camera_.target;
     camera_.position = camera_.target + d * std::cos(angle) + glm::cross(axis, d) * std::sin(angle) +

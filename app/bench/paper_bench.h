@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repeats the measurements of table 1 of the paper (Krone, Dachsbacher & Ertl 2010): frames of a view, by group of
-// stages.
+// Repeats the measurements of table 1 of the paper (Krone, Dachsbacher & Ertl 2010), by groups of stages.
 #pragma once
 
 #include <glm/vec2.hpp>

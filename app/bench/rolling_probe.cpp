@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Implements the sequential rolling probe: first face, next face by smallest angle, restarts for components and
-// cavities.
+// Implements the sequential rolling probe: first face, next face by smallest angle, restarts for other components.
 #include "app/bench/rolling_probe.h"
 
 #include "core/math/ball.h"
@@ -78,8 +77,7 @@ class RollingProbe {
     return list;
   }
 
-  // Evaluates a predicate on the circle of atom i and its n-th neighbour: in double, and if that is not certain, in
-  // quadruple precision.
+  // Evaluates a predicate on the circle of atom i and its n-th neighbour, in quadruple precision if necessary.
   template <typename Question>
   auto ask(std::uint32_t i, std::size_t n, Question&& question) {
     const std::vector<RollingNeighbor>& neighbors = neighbors_of(i);
@@ -173,8 +171,7 @@ class RollingProbe {
       if (slide(leftmost, towards.center)) return;
   }
 
-  // Slides over the ball of atom i from its leftmost point in a great circle towards a point. False if rounding spoils
-  // the start.
+  // Slides over the ball of atom i from its leftmost point towards a point; returns false if rounding spoils the start.
   bool slide(std::uint32_t i, const glm::dvec3& towards) {
     const glm::dvec3 left(-1, 0, 0);
     const glm::dvec3 across = towards - left * glm::dot(left, towards);

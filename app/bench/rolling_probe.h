@@ -97,7 +97,7 @@ class RollingCircle {
     return first_from(Precision::pseudo(typename Precision::real2{u, v}), real(0), true);
   }
 
-  /// True if the probe fits where it meets the n-th met ball: where that ball's covered part begins, or ends.
+  /// Returns true if the probe fits where it meets the n-th met ball: where that ball's covered part begins, or ends.
   bool accessible(std::size_t n, bool at_end) {
     const auto& at = met_[n].covered;
     const auto x = Precision::direction(at_end ? at.end : at.begin);
@@ -170,8 +170,7 @@ class RollingCircle {
 
 /// The part of the surface that the probe explores.
 enum class RollingScope {
-  /// The part that rolling over edges reaches from the leftmost atom: one component, no cavities. The classical
-  /// algorithm.
+  /// The part that rolling reaches from the leftmost atom: one component, no cavities (the classical algorithm).
   outer_component,
   /// Everything. Rolling cannot leave its component, so each circle of two atoms is searched for positions where the
   /// probe touches a third atom; at each unvisited position it starts again. Free edges, to which no face leads, are

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus farm` and `meniscus work`: bundle a command on frames, make its frames, verify them; and the properties of
-// bundles and workers.
+// `meniscus farm` and `meniscus work`: bundle a command on frames, make its frames, and verify them.
 
 #include <cstdlib>
 #include <iostream>
@@ -35,7 +34,7 @@ constexpr std::size_t kFaultsShown = 10;
 constexpr std::initializer_list<const char*> kDeviceOptions{"--device", "--threads", "--require-gpu", "--jobs"};
 
 struct BundleCommand {
-  Words words;  // behind --
+  Words words;  // words after --
   farm::BundleOptions options;
   std::string engines = "make,slurm,snakemake,openjd,kubernetes,flamenco";
   farm::Film film;
@@ -73,7 +72,7 @@ TakenProperties properties_of(const farm::CommandKind& kind) {
                                                  : traced_properties();
 }
 
-/// Parses the words behind -- by the program's own options, without running their command. Throws UsageError for a
+/// Parses the words after -- by the program's own options, without running their command. Throws UsageError for a
 /// command that makes no frames, and for wrong options.
 farm::BundledCommand parsed(const Words& words, RenderCommand& command) {
   const std::ptrdiff_t count = words.front() == "export" ? 2 : 1;
@@ -96,7 +95,7 @@ farm::BundledCommand parsed(const Words& words, RenderCommand& command) {
     options.add_switch("picture.no_provenance", [&] { command.names_program = false; });
   }
   Words arguments(behind, second);
-  std::ranges::reverse(arguments);  // as CLI11 takes them
+  std::ranges::reverse(arguments);  // CLI11 takes arguments in reverse order
   try {
     app.parse(arguments);
     refuse_options(declared);
@@ -198,7 +197,7 @@ void add_farm_bundle(CLI::App& command) {
 
 namespace {
 
-/// Says how frames that are not good can be made.
+/// Returns a sentence about how to make the frames that are not good.
 std::string advice(const farm::FrameFaults& faults, const std::string& folder) {
   std::vector<std::uint64_t> damaged;
   for (const auto& [frame, fault] : faults)
@@ -276,7 +275,7 @@ std::vector<std::uint64_t> frames_of_chunk(const farm::Bundle& bundle, const std
   if (!parse_whole_number(text.substr(0, slash), k) || slash == text.size() ||
       !parse_whole_number(text.substr(slash + 1), n) || k < 1 || k > n)
     throw UsageError("--chunk is {}; it must be K/N with K from 1 to N, such as 3/10", in_quotes(text));
-  // Workers of neighbouring shares on a machine of several GPUs take one each.
+  // Workers of neighbouring chunks on a machine with several GPUs take one each.
   system_process::set_variable(kWorkerVariable, std::to_string(k - 1));
   return farm::chunk_of(bundle, static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(n));
 }

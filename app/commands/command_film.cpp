@@ -72,7 +72,7 @@ class PictureFilm : public FilmMaker {
         progress_(progress_on_stderr(command_), "film", storyboard.pictures()) {}
 
   void make() {
-    constexpr std::uint64_t kBytesPerPixel = 100;  // as in `meniscus render`
+    constexpr std::uint64_t kBytesPerPixel = 100;  // the value of `meniscus render`
     storyboard_.play(*this, device_.context(), kBytesPerPixel);
     pictures_.finish();
     log_line(command_, fmt::format("{} pictures, {:.1f} s: {}", with_thousands(pictures_.count()),
@@ -116,7 +116,7 @@ class PictureFilm : public FilmMaker {
   PictureDevice device_;
   FilmPictures pictures_;
   Progress progress_;
-  std::optional<MotionBlur> blur_;  ///< of the current scene
+  std::optional<MotionBlur> blur_;  ///< motion blur of the current scene
 };
 
 TakenProperties film_properties() {

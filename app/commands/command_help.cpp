@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus help NAME`: shows a page of the manual, the help of a command, or what speaks of a word or its synonyms;
-// writes man pages.
+// `meniscus help NAME`: shows a page of the manual, the help of a command, or texts that mention a word or its
+// synonyms; writes man pages.
 #include <cctype>
 #include <iostream>
 
@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kMostPages = 6;
 constexpr std::size_t kMostOptions = 10;
 
-/// Words of this program, and the words of users for the same thing; a blank separates these.
+/// Words of this program, and words of users for the same thing, separated by blanks.
 constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
     {"assembly", "biomolecule multimer"},
     {"bfactor", "b-factor"},
@@ -106,7 +106,7 @@ Query query_of(std::string_view text) {
   return query;
 }
 
-/// Returns how much a text speaks of a query: 0 if one of its words is missing.
+/// Returns how often a text mentions the words of a query; 0 if one of them is missing.
 std::size_t hits(const Query& query, std::string_view text) {
   const std::string lower = lower_case(text);
   std::size_t sum = 0;
@@ -119,7 +119,7 @@ std::size_t hits(const Query& query, std::string_view text) {
   return sum;
 }
 
-/// A line of the result, and how well it fits.
+/// A line of the result, and its score.
 struct Finding {
   std::size_t score = 0;
   std::string line;
@@ -174,9 +174,9 @@ std::vector<Finding> find_pages(const Query& query) {
   return findings;
 }
 
-/// Returns the commands, options and pages of the manual that speak of all words of a query, the best first, as text
-/// for people. A word also stands for its synonyms in other programs ("movie" for "film"). The result is empty if
-/// nothing is found.
+/// Returns the commands, options and pages of the manual that mention all words of a query, best first, as text for
+/// people. A word also stands for its synonyms in other programs ("movie" for "film"). The result is empty if nothing
+/// is found.
 std::string help_about(const CommandEntry& program, std::string_view text) {
   const Query query = query_of(text);
   if (query.empty()) return {};
@@ -255,7 +255,7 @@ std::string_view summary_of(std::string_view name) {
   return manual_page(name)->title();
 }
 
-/// Returns the codes of the page exit-codes, a line each: "  0  done".
+/// Returns the codes of the page exit-codes, one per line: "  0  done".
 std::string exit_codes() {
   std::string lines;
   std::string_view text = manual_page("exit-codes")->markdown;

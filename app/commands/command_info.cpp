@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus info`: shows the contents of a file and the atoms that a surface would use; frames and times of
-// trajectories.
+// `meniscus info`: shows a file's contents, the atoms that a surface would use, and frames and times of trajectories.
 #include <iostream>
 #include <tuple>
 

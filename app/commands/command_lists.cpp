@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands that print what the program knows: colours, file formats, completion scripts.
+// Commands that print lists: colours, file formats, completion scripts.
 
 #include <iostream>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus panels`: makes one picture of several scenes, side by side; `meniscus looks`: of one molecule in all looks.
+// `meniscus panels`: makes one picture of several scenes, side by side; `meniscus looks`: of all looks.
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
@@ -154,7 +154,7 @@ void run(const DeclaredPanels& declared) {
   make_page(declared.state, panels, arrangement_of(declared, panels.front().scene));
 }
 
-/// Returns the selection that a look needs and that has no atoms among all that are drawn; empty: it has what it needs.
+/// Returns the selection that a look needs but that has no atoms in the drawn structure; empty if nothing is missing.
 std::string lacking(const Preset& preset, const Scene& scene, const Structure& structure) {
   if (preset.needs.empty()) return {};
   const bool is_elsewhere = scene.picture.zoom_to && preset.sets("camera.zoom_to");

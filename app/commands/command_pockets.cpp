@@ -32,7 +32,7 @@ struct PocketsCommand : SceneCommand {
   double mesh_tolerance = 0.02;
 };
 
-/// There are more positions of the large probe than atoms.
+/// The memory of pockets; the large probe has more positions than there are atoms.
 constexpr std::uint64_t kPocketBytesPerAtom = 10 * kSurfaceBytesPerAtom;
 
 /// Returns, per atom of the structure, true if it is left out. Throws InputError if no atom remained.
@@ -169,7 +169,7 @@ void check_mesh_path(const std::string& path) {
                      mesh_format_words());
 }
 
-// Throws unless the path of a run has a place for the number of the frame.
+// Throws UsageError unless the path of a run has a place for the number of the frame.
 void check_numbered(const char* option, const std::string& path) {
   if (path.empty() || NumberedPath::parse(path)) return;
   throw UsageError("{} {}: each frame needs a file of its own; put # where its number goes, as in {}", option,

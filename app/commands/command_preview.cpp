@@ -112,7 +112,7 @@ Shown read_inputs(PreviewCommand& command, const std::function<void(const std::s
   require_previewed(color);
   show_status(fmt::format("Preparing {} atoms", with_thousands(shown.structure.atoms.size())));
   if (!command.aims) return shown;
-  // Everything drawn counts; a scene's picture is framed as render frames it.
+  // All drawn atoms count; a scene's picture is framed as `meniscus render` frames it.
   const FigureRequest& figure = shown.scene.figure;
   const bool reads_again = !figure.representations.empty() || !figure.objects.empty() ||
                            (shown.structure.companions != Companions::none && command.scene.molecule.file != "-");

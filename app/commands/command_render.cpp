@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus render`: ray casts the analytic surface of a molecule into a picture, or each frame of a run into pictures
-// or a film.
+// `meniscus render`: ray casts a molecule into a picture, or the frames of a run into pictures or a film.
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
@@ -241,7 +240,7 @@ void render_figures(RenderCommand command) {
   if (!run.is_run()) log_times(command, device.renderer().device(), device.renderer().times());
 }
 
-/// True if surfaces are divided, or their pieces named or measured.
+/// Returns true if surfaces are divided, or their pieces named or measured.
 bool needs_borders(const Scene& scene) {
   const MoleculeRequest& molecule = scene.molecule;
   return scene.image.aovs || molecule.patches || molecule.color.of_points() ||
@@ -249,7 +248,7 @@ bool needs_borders(const Scene& scene) {
          molecule.division.cavities != Cavities::keep;
 }
 
-/// Keeps only the missing pictures, in a run their frames; false if none is missing.
+/// Keeps only the missing pictures, in a run their frames; returns false if none is missing.
 bool leave_missing(RenderCommand& command) {
   const bool is_run = command.scene.frames.is_requested();
   const std::optional<NumberedPath> pictures = NumberedPath::parse(command.scene.output);

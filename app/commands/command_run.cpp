@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads molecules and runs, and hands their structures or figures to a command; and turns options of `meniscus render`
-// into settings of its pictures, and those that scenes share into words that each scene parses.
+// Reads molecules and runs, passes their structures or figures to a command, and turns options of `meniscus render`
+// into settings of pictures, and options that scenes share into words that each scene parses.
 #include "app/commands/command_run.h"
 
 #include "app/process/program_main.h"
@@ -167,7 +167,7 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
 
 PictureFit FigureRun::fitted(ViewRequest picture) const {
   const int height = picture.height;
-  picture.height = 3 * picture.width / 4;  // the camera of a usual picture, whose view is then made lower
+  picture.height = 3 * picture.width / 4;  // the camera is that of an ordinary picture, whose view is then made lower
   const ViewedAtoms seen = aim_->viewed(*figure_);
   return picture_fit(aim_->camera(picture, given_.still, seen), picture.size(), height, seen.framed,
                      fitted_margin(scene(), scene().picture.size()));

@@ -39,8 +39,7 @@ ImageSettings image_settings(const RenderCommand& command);
 /// Makes pictures of only the part that the view needs (--extent): of a molecule, or of the frames of a run.
 void render_views(const RenderCommand& command);
 
-/// Returns the options of the command line that hold for each scene, too, as words of `meniscus render`. but: keys of
-/// those that do not.
+/// Returns the options of the command line that also hold for each scene. but: keys of options that do not.
 std::vector<std::string> shared_words(const SceneOptions& options, std::span<const std::string_view> but);
 
 /// Reads the scene of a file or a picture, as `meniscus render --scene FILE words...` does. Options without effect are
@@ -115,27 +114,24 @@ struct FigureWork {
 /// made at once; figures of a run are made in turn, several at a time.
 class FigureRun {
  public:
-  /// Reads the molecule and computes its figure, or opens the run; and prints what it read. Throws the errors of
-  /// reading and computing.
+  /// Computes the figure of a molecule, or opens the run; prints what it read. Throws the errors of both.
   explicit FigureRun(const SceneCommand& command, Velocities velocities = Velocities::none);
 
   /// Finds the camera of each frame. picture: with the size of the part of the picture for the molecule. extent:
   /// framing() also has the box around all frames. Throws like run_cameras.
   void aim(const ViewRequest& picture, bool extent);
 
-  /// Chooses the height of a picture that ends at its molecule (ViewRequest::fits), and returns it. Must be called
-  /// before aim().
+  /// Chooses and returns the height of a picture that ends at its molecule (ViewRequest::fits). Call it before aim().
   int fit();
 
-  /// Returns the camera for another picture of the same figure, in a run for all its frames. given: a camera from a
-  /// file. Throws like aim().
+  /// Returns the camera for another picture of the same figure; in a run, for all frames. given: a camera from a file.
+  /// Throws the errors of aim().
   Camera camera_for(const ViewRequest& picture, const std::optional<Camera>& given);
   /// Measures in all frames the numbers by which a scheme colours; does nothing for a single molecule.
   void measure(ColorScheme& color);
 
   bool is_run() const { return frames_ != nullptr; }
-  /// Returns the command with resolved selections, with the atoms drawn in addition to the surface, and with measured
-  /// colours.
+  /// Returns the command with resolved selections, with the atoms next to the surface, and with measured colours.
   const SceneCommand& command() const { return command_; }
   const Scene& scene() const { return command_.scene; }
   /// Returns the frames. The command must make a run.
@@ -159,8 +155,7 @@ class FigureRun {
   /// Returns the meaning of the colours of all figures.
   ColorKey key() const;
 
-  /// Makes the file of a figure, perhaps on a thread of its own; the function that it returns runs in the order of the
-  /// frames.
+  /// Makes the file of a figure, perhaps on another thread; the function that it returns runs in the order of frames.
   using Sink = std::function<FinishFrame(FigureFrame frame)>;
   /// Passes all figures to sinks; each thread has a sink of its own. For a single molecule, the errors of the sink are
   /// thrown. Throws like run_frames.

@@ -24,12 +24,12 @@
 namespace meniscus {
 namespace {
 
-/// The numbers of a molecule, or of a frame before its place among the others matters.
+/// The numbers of a molecule, or of a frame before its position among the others matters.
 struct SurfaceNumbers {
   std::vector<SeriesValue> values;
   std::string printed, atom_header, atoms, residue_header, residues, gradient_header, gradients, patches;
   std::vector<Cavity> cavities;
-  std::vector<std::string> lining;  ///< of each cavity
+  std::vector<std::string> lining;  ///< residues that line each cavity
 };
 
 /// Returns the first cells of a frame's rows; empty for a single molecule.
@@ -170,7 +170,7 @@ class SurfaceTables {
     print_now(held_);
   }
 
-  /// The x axis is time if all frames have one, else their numbers.
+  /// Returns the plot; its x axis is time if all frames have one, else their numbers.
   SeriesPlot plot() const {
     const bool has_times = std::ranges::all_of(plotted_, [](const FrameNote& note) { return note.time.has_value(); });
     SeriesPlot plot;
@@ -182,7 +182,7 @@ class SurfaceTables {
     return plot;
   }
 
-  /// Only the numbers of a frame are kept, because there may be many frames.
+  /// Keeps only the numbers of a frame, because there may be many frames.
   void plot_frame(const std::vector<SeriesValue>& values, const FrameNote& note) {
     std::size_t panel = 0;
     for (const SeriesValue& value : values) {
@@ -318,7 +318,7 @@ void add_surface(CLI::App& command) {
   options.add("report.resume", state.resumes);
   command.callback([declared] {
     declared->options.take();
-    // Parts of surfaces are cut out by planes, and rays meet patches within them.
+    // Planes cut parts out of surfaces, and rays meet the patches within them.
     const Division& division = declared->state.scene.molecule.division;
     SurfaceCommand& requested = declared->state;
     MoleculeRequest& molecule = requested.scene.molecule;

@@ -30,8 +30,7 @@ std::span<const Command> exporters();
 /// Returns the commands of the program.
 std::span<const Command> commands();
 
-/// The time when commands declare their options: all at once, as help and completion need them, or each when the
-/// command line reaches it.
+/// The time when commands declare their options: all at once, for help and completion, or each when it is reached.
 enum class Declared { at_once, when_reached };
 
 /// Adds the commands and their subcommands; the rows must outlive `parent`.

@@ -62,8 +62,7 @@ void log_size(const SceneCommand& command, const FigureMeshes& meshes, const Mes
                        all < kLargeRun ? "" : "; fewer --frames, or a larger --tolerance, make it smaller"));
 }
 
-// Writes a file of one molecule, or one for each frame of the chunk and a manifest for the whole run, which is the same
-// from every chunk.
+// Writes a file of one molecule, or a file for each frame of the chunk and a manifest for the whole run.
 void export_to_blender(const SceneCommand& requested) {
   check_blender(requested.scene);
   if (requested.scene.output.ends_with(".blend"))

@@ -69,7 +69,7 @@ void log_report(const SceneCommand& command, const MeshFormat& format, const Mes
                          with_thousands(maker.flat_triangles())));
 }
 
-// Writes objects to files of their own, all or none of them.
+// Writes objects to separate files, all or none of them.
 void write_numbered(const MeshFormat& format, const NumberedPath& path, Existing existing, MeshFile whole) {
   std::vector<FileObject> objects = std::exchange(whole.objects, {});
   const std::filesystem::path folder = std::filesystem::path(path.at(1)).parent_path();
@@ -146,7 +146,7 @@ void export_to_mesh(const SceneCommand& requested) {
     log_line(requested, fmt::format("note: --opacity: {} files store no opacity, so transparent parts are opaque there",
                                     format.title));
   SceneCommand bare = requested;
-  bare.scene.figure.bare = true;  // a mesh is that of the surface
+  bare.scene.figure.bare = true;  // a mesh contains only the surface
   FigureRun run(bare, one_file ? Velocities::central : Velocities::none);
   run.aim(requested.scene.picture, false);
   const SceneCommand& command = run.command();

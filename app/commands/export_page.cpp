@@ -40,20 +40,19 @@ class NamedViews {
 
   /// Finds the cameras. Throws like FigureRun::camera_for(), with the name of the view.
   void aim(FigureRun& run);
-  /// Returns the views of a figure with its objects; call aim() first. Throws like cut_atoms(), with the name of the
-  /// view.
+  /// Returns the views of a figure; call aim() first. Throws the errors of cut_atoms(), with the name of the view.
   std::vector<page::PageView> of(const Scene& page, const Figure& figure) const;
 
  private:
   struct View {
     std::string name;
-    Scene scene;                   ///< with the size of the page
-    std::optional<Camera> camera;  ///< from a file, until the view is aimed
+    Scene scene;                   ///< the view's scene, with the size of the page
+    std::optional<Camera> camera;  ///< the camera of a file, until the view is aimed
   };
   std::vector<View> views_;
 };
 
-/// True for a picture, or a text that is a scene.
+/// Returns true for a picture, or for a text that is a scene.
 bool is_scene(const std::string& file) {
   std::error_code unreadable;
   if (file.starts_with('{') || !std::filesystem::is_regular_file(path_of_text(file), unreadable)) return false;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export mitsuba` and `meniscus export pbrt`: write a scene for path tracers, with meshes as fine as the
-// picture needs.
+// `meniscus export mitsuba` and `pbrt`: write a scene for path tracers, with meshes as fine as the picture needs.
 #include <iostream>
 
 #include "app/commands/command_run.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes what a figure shows for Blender, path tracers and viewers.
+// Makes the meshes of a figure for Blender, path tracers and viewers.
 #include "app/commands/figure_meshes.h"
 
 #include "app/reports/notes.h"
@@ -170,8 +170,7 @@ void add_more(const SceneCommand& command, const Figure& figure, const Camera& c
   }
 }
 
-/// Adds an object for the shapes drawn in addition to the surface, kept in `made`. Its vertices move with the atom of
-/// their triangles.
+/// Adds an object for the shapes next to the surface, kept in `made`. Vertices move with the atom of their triangles.
 void add_extra_shapes(const Structure& structure, const ColoredShapes& shapes, double tolerance,
                       std::span<const glm::dvec3> velocities, std::optional<ShapeObject>& made,
                       std::vector<blender::MeshedObject>& objects) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of a figure for Blender, path tracers and viewers, and what is said of them.
+// Meshes of a figure for Blender, path tracers and viewers, and notes about them.
 #pragma once
 
 #include "app/commands/command_run.h"
@@ -14,7 +14,7 @@
 
 namespace meniscus {
 
-/// True if the command line or the scene sets the fineness of a mesh.
+/// Returns true if the command line or the scene sets the fineness of a mesh.
 bool has_fineness(const SceneOptions& options);
 
 /// The choice whether each copy of an object has triangles of its own.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus film --to blender`: writes a storyboard as surfaces, with the times and the way in which each is shown.
+// `meniscus film --to blender`: writes a storyboard as surfaces, with the times and the appearance of each.
 #include <fstream>
 #include <iostream>
 

@@ -89,7 +89,7 @@ Annotations FrameAnnotations::of(const SinkPicture& picture, const Structure& st
                                  std::span<const PlaceLabel> lengths) const {
   Annotations annotations = annotations_of(request_, structure, lengths);
   if (!is_run_) return annotations;
-  annotations.labels_must_fit = false;  // otherwise the other pictures would lack one
+  annotations.labels_must_fit = false;  // a frame without room for its labels must not fail
   if (request_.time_stamp) annotations.time = time_text(picture.time, picture.source, longest_);
   annotations.curve = curve_;
   if (curve_) annotations.curve->now = picture.place;
@@ -131,7 +131,7 @@ void check_pictures(const NumberedPath& path, std::span<const std::uint64_t> num
     std::error_code ignored;
     return std::filesystem::exists(std::filesystem::symlink_status(path.at(number), ignored));
   };
-  // The first path is checked for its folder as well.
+  // The folder of the first path is checked, too.
   check_output(path.at(numbers.front()), existing);
   if (existing == Existing::replace) return;
   const auto there = std::ranges::find_if(numbers, is_there);
@@ -214,7 +214,7 @@ std::string made_of(const Scene& scene) {
     for (const std::string& path : value_texts(scene, *property)) {
       std::error_code error;
       const std::uintmax_t size = std::filesystem::file_size(path, error);
-      if (error) continue;  // a camera's JSON is no path
+      if (error) continue;  // the JSON of a camera is not a path
       const auto time = std::filesystem::last_write_time(path, error).time_since_epoch().count();
       text += fmt::format("{} {} {}\n", property->key, size, time);
     }
@@ -231,7 +231,7 @@ std::vector<std::size_t> missing_pictures(const std::vector<std::string>& paths,
   const std::set<std::size_t> absent(not_there.begin(), not_there.end());
   std::vector<std::size_t> missing, others;
   for (std::size_t n = 0; n < paths.size(); ++n) {
-    const bool is_absent = absent.contains(n);  // or cut short
+    const bool is_absent = absent.contains(n);  // true also for incomplete pictures
     const bool is_other = is_absent ? std::filesystem::exists(paths[n]) : png_note(paths[n], kMadeOfNote) != made_of;
     if (is_other) others.push_back(n);
     if (is_other || is_absent) missing.push_back(n);

@@ -29,10 +29,9 @@ struct SinkPicture {
 /// The text and symbols in the pictures of a molecule, or of a run.
 class FrameAnnotations {
  public:
-  /// run: the run of the frames; nullptr: there is one picture. The scene must stay valid. Throws InputError for its
-  /// curve.
+  /// run: nullptr if there is one picture. The scene must stay valid. Throws InputError for a bad curve.
   FrameAnnotations(const Scene& scene, FrameRun* run);
-  /// Returns the annotations of a picture. lengths: of dashed lines. Throws InputError for a label of no atoms.
+  /// Returns the annotations of a picture. lengths: of dashed lines. Throws InputError for a label without atoms.
   Annotations of(const SinkPicture& picture, const Structure& structure,
                  std::span<const PlaceLabel> lengths = {}) const;
   /// Checks the annotations before the first picture. Throws the errors of annotate() if something does not fit with
@@ -54,8 +53,7 @@ std::optional<NumberedPath> numbered_output(const std::string& path, const FilmF
 /// Throws OutputError if one of these pictures cannot be written; called before the first of them is made.
 void check_pictures(const NumberedPath& path, std::span<const std::uint64_t> numbers, Existing existing);
 
-/// Returns the background of a film with such pixels: white if no background is set, except in a film that keeps
-/// transparency.
+/// Returns the background of a film with these pixels: by default white, unless the film keeps transparency.
 std::optional<glm::vec3> ground_of_film(const std::optional<glm::vec3>& background, const FilmPixels& pixels);
 
 class PictureSink {
@@ -64,8 +62,7 @@ class PictureSink {
   /// film of a part of a run. The command, the layout and the run must stay valid.
   PictureSink(const RenderCommand& command, const PictureLayout& layout, FrameRun* run);
 
-  /// Draws the molecule with these settings: in bands if a function takes them (RenderSettings::take_band), else as a
-  /// whole.
+  /// Draws the molecule: in bands if a function takes them (RenderSettings::take_band), else as a whole.
   using Draw = std::function<Framebuffer(const RenderSettings& settings)>;
   /// Calls FrameAnnotations::of().
   Annotations annotations(const SinkPicture& picture, const Structure& structure,
@@ -96,13 +93,12 @@ class PictureSink {
   std::mutex legend_;  ///< its letters come from one font, which only one thread uses at a time
 };
 
-/// Returns what pictures or tables are made of as 64 hexadecimal digits: a digest of the scene, the program's version,
-/// and the sizes and times of the files that the scene names. Each picture of a run that may be resumed has it as a
-/// note.
+/// Returns a digest, as 64 hexadecimal digits, of the scene, the program's version, and the sizes and times of files
+/// that the scene names. Pictures of a run that may be resumed have it as a note.
 std::string made_of(const Scene& scene);
 
-/// Returns the places, in order, of paths whose picture is not there whole or has another note. Throws UsageError for
-/// pictures with another note, unless they may be replaced; and for files that are not PNG, which have no notes.
+/// Returns the indices, in order, of paths whose picture is missing, incomplete or has another note. Throws UsageError
+/// for pictures with another note, unless they may be replaced; and for files that are not PNG, which have no notes.
 std::vector<std::size_t> missing_pictures(const std::vector<std::string>& paths, const std::string& made_of,
                                           Existing existing);
 

@@ -131,8 +131,7 @@ povray::Run shared_by(Storyboard& storyboard) {
   return all;
 }
 
-/// Returns options with numbers that change during transitions in pictures, but not in POV-Ray, which has its own
-/// light.
+/// Returns options whose numbers change during transitions, but not in POV-Ray, which has its own light.
 std::string changes_left_out(Storyboard& storyboard) {
   std::set<std::string> names;
   const auto look = [&](std::size_t n) {
@@ -164,8 +163,7 @@ std::vector<std::string> left_out_of_povray(Storyboard& storyboard) {
   return sentences;
 }
 
-/// Returns the objects drawn in addition to the surface in any scene: empty objects for scenes other than that of
-/// `figure`.
+/// Returns the objects next to the surface in all scenes; objects of scenes other than `figure`'s are empty.
 std::vector<povray::SceneObject> objects_of(Storyboard& storyboard, std::size_t scene, const MoleculeShot& shot) {
   std::vector<povray::SceneObject> objects;
   for (std::size_t n = 0; n < storyboard.size(); ++n) {

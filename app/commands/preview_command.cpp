@@ -160,7 +160,7 @@ void make_film(const FilmOrder& order, const ExportTarget& target, const ExportW
   check_output(target.path, target.existing);
   std::vector<std::string> words = order.words;
   words.front() = system_file::program_path().string();
-  std::optional<OutputFile> storyboard;  // never committed, so that it vanishes with this object
+  std::optional<OutputFile> storyboard;  // it is never committed, so that it is deleted with this object
   if (order.storyboard.empty()) {
     words.insert(words.end(), {"-q", "--progress", "json"});
   } else {

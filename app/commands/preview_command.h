@@ -14,7 +14,7 @@ struct PreviewCommand : SceneCommand {
   bool aims = false;                  ///< true if the scene sets the first camera
   bool has_size = false;              ///< true if the scene has the size of exported pictures
   std::optional<std::uint16_t> port;  ///< the value of --serve
-  std::string address = "127.0.0.1";  ///< the address in it
+  std::string address = "127.0.0.1";  ///< the address in the value of --serve
   std::vector<std::string> trusted_hosts;
   bool no_open = false;  ///< true if the user opens the page
   std::string record, commands, token_file, output_folder = ".";

@@ -11,8 +11,7 @@
 
 namespace meniscus {
 
-/// The kind of film: our own pictures, the frames of a scene for another renderer, or scenes and keys for another
-/// program.
+/// The kind of film: pictures, frames of a scene for another renderer, or scenes and keys for another program.
 enum class FilmMedium { pictures, povray, blender };
 
 struct FilmCommand : SceneCommand {
@@ -31,10 +30,10 @@ struct FilmScene {
   std::shared_ptr<const PictureLayout> layout;
   FrameAnnotations annotations;
 
-  /// extent: FigureRun::aim()
+  /// extent: see FigureRun::aim().
   FilmScene(const SceneCommand& command, bool extent);
 
-  /// True if the scene shows more than one frame, each of them once.
+  /// Returns true if the scene shows more than one frame, each of them once.
   bool plays() { return run.is_run() && run.frames().numbers().size() > 1; }
   std::uint64_t pictures(std::uint64_t held) { return plays() ? run.frames().numbers().size() : held; }
 };
@@ -64,15 +63,14 @@ class Storyboard {
   const FilmFormat& format() const { return format_; }
   bool is_exported() const { return command_.medium != FilmMedium::pictures; }
   std::uint64_t pictures() const;
-  /// Returns the number of pictures of a scene that is not a run; the next function returns that of the transition
-  /// after it.
+  /// Return the number of pictures of a scene that is not a run, and of the transition after it.
   std::uint64_t held(std::size_t n) const { return timing_.held[n]; }
   std::uint64_t between(std::size_t n) const { return timing_.between[n]; }
   /// Returns the title above the scene's pictures, in exports too.
   const std::string& title(std::size_t n) const { return titles_[n]; }
-  /// True if titles, labels, legends and the like were removed from scenes.
+  /// Returns true if titles, labels, legends and the like were removed from scenes.
   bool leaves_writing_out() const { return leaves_writing_out_; }
-  /// True if the predicate is true for some scene.
+  /// Returns true if the predicate is true for some scene.
   bool any(const std::function<bool(const Scene&)>& is_true) const;
   /// Prints a note about each thing that another renderer leaves out.
   void log_left_out(const std::vector<std::string>& sentences) const;

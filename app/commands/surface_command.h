@@ -9,16 +9,16 @@ namespace meniscus {
 
 struct SurfaceCommand : SceneCommand {
   bool json = false;
-  bool open_sky = false;  ///< true for a column of atom_csv
+  bool open_sky = false;  ///< true if atom_csv has a column open_sky
   std::string atom_csv, residue_csv, series_csv, cavity_csv,
       gradient_csv;  ///< paths; empty: none; "-": standard output
   std::string plot;  ///< path of an SVG for a run; empty: none
   std::optional<Selection> context;
-  std::string patch_csv;    ///< paths as above
+  std::string patch_csv;    ///< path as above
   std::string summary_csv;  ///< path of a table of many files; empty: there is one molecule
   bool resumes = false;     ///< true to continue an existing summary_csv
 
-  /// True if a table replaces the printed report.
+  /// Returns true if a table replaces the printed report.
   bool prints_csv() const;
 };
 

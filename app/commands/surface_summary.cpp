@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the files of `meniscus surface --csv-summary` in a pipeline, and keeps tables that a later call can
-// continue.
+// Computes the files of `meniscus surface --csv-summary` in a pipeline; a later call can continue its tables.
 #include "app/commands/picture_sink.h"
 #include "app/commands/surface_command.h"
 
@@ -31,10 +30,10 @@ std::string first_cell(const std::string& row) {
   return row.substr(0, row.find(',', begin));
 }
 
-/// True for a row of a summary whose file was computed.
+/// Returns true for a row of a summary whose file was computed.
 bool is_whole(const std::string& row) { return row.ends_with(",yes,\n"); }
 
-/// A table whose rows are kept as they come, and which a later call can continue.
+/// A table that keeps its rows as they come, and that a later call can continue.
 class LastingTable {
  public:
   /// path: empty: no table is written. note: a first line that the finished table does not have; empty: none.

@@ -49,7 +49,7 @@ Json json_of(const Chunking& chunking) {
   return json;
 }
 
-/// The JSON library would convert a negative number or a fraction.
+/// Returns a whole number; the JSON library would also convert a negative number or a fraction.
 std::uint64_t whole_number(const Json& json) {
   if (!json.is_number_unsigned())
     throw RequestError("is damaged: {} is not a whole number", shortened(json.dump(), kLongestShown));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bundle is a run of frames as a folder that any machine can work on; bundle.json in it says what is to be made.
+// A bundle is a folder with a run of frames that any machine can work on; its bundle.json describes the work.
 #pragma once
 
 #include "app/film/film.h"
 
 namespace meniscus::farm {
 
-/// A kind of work that is done on every frame. A picture of a renderer needs the scene of the same frame, nothing else.
+/// A kind of work on every frame. A picture of a renderer needs the scene of the same frame, nothing else.
 enum class Step {
   surface,  ///< scenes for a renderer, by this program
   render    ///< pictures
@@ -26,8 +26,7 @@ struct CommandKind {
   Maker renderer;           ///< the program of Step::render
 };
 
-/// Returns the kind of {"render", ...} or {"export", "povray", ...}. Throws RequestError for a command that cannot be
-/// bundled.
+/// Returns the kind of {"render", ...} or {"export", "povray", ...}. Throws RequestError for other commands.
 const CommandKind& kind_of(const std::vector<std::string>& command);
 
 /// A file that the command reads.
@@ -85,8 +84,7 @@ struct Bundle {
   std::string result(Step step, std::uint64_t frame) const;
 };
 
-/// Returns part K of N of the run, K from 1. Its frames follow each other in the run; sizes of parts differ by one at
-/// most.
+/// Returns part K of N of the run, from 1: consecutive frames. Sizes of parts differ by one at most.
 std::vector<std::uint64_t> chunk_of(const Bundle& bundle, std::uint64_t k, std::uint64_t n);
 
 /// Returns the pattern with the frame's number, of five digits or more, instead of #####.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks at the files of a bundle, removes unfinished ones, and hands the pictures to the encoder of the film.
+// Checks the files of a bundle, removes unfinished ones, and passes the pictures to the encoder of the film.
 #include "app/farm/bundle_folder.h"
 
 #include <bit>
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kQuickToCheck = std::uint64_t{256} << 20;  // bytes; a second
+constexpr std::uint64_t kQuickToCheck = std::uint64_t{256} << 20;  // bytes, which take about a second
 
 std::set<fs::path> names_in(const fs::path& folder) {
   std::set<fs::path> names;
@@ -72,7 +72,7 @@ std::string digest_of(std::istream& bytes) {
   std::string end(block.data(), static_cast<std::size_t>(bytes.gcount()));
   bits += 8 * end.size();
   end += '\x80';
-  end.resize((end.size() + 8 + 63) / 64 * 64);  // with zeros, and room for the number of bits
+  end.resize((end.size() + 8 + 63) / 64 * 64);  // zeros fill the block before the 8 bytes of the number of bits
   for (std::size_t n = 1; n <= 8; ++n, bits >>= 8) end[end.size() - n] = static_cast<char>(bits & 0xff);
   for (std::size_t n = 0; n < end.size(); n += 64) add_block(hash, &end[n]);
   std::string text;
@@ -150,7 +150,7 @@ std::vector<std::uint64_t> missing_frames(const Bundle& bundle, const fs::path& 
 
 void check_inputs(const Bundle& bundle, const fs::path& folder, bool thorough) {
   for (const Input& input : bundle.inputs) {
-    const fs::path path = folder / input.path;  // `folder` does not count if the input's path is absolute
+    const fs::path path = folder / input.path;  // an absolute path replaces `folder`
     std::error_code missing;
     const std::uintmax_t bytes = fs::file_size(path, missing);
     const bool quick = !thorough && bytes > kQuickToCheck;
@@ -178,7 +178,7 @@ DecodedImage decoded(const Bundle& bundle, const fs::path& folder, std::uint64_t
 }
 
 bool is_blank(const DecodedImage& picture) {
-  // Every value equals the one a pixel before.
+  // Every value equals that of the pixel before.
   const auto one = static_cast<std::ptrdiff_t>(picture.channels);
   return std::equal(picture.values.begin() + one, picture.values.end(), picture.values.begin());
 }
@@ -196,7 +196,7 @@ std::string picture_fault(const Bundle& bundle, const fs::path& folder, std::uin
   }
 }
 
-/// Returns sRGB as the film takes it, on white where the film keeps no alpha.
+/// Returns sRGB values in the form that the film takes, on white if the film keeps no alpha.
 std::vector<std::uint8_t> film_pixels(const DecodedImage& picture, const FilmPixels& pixels) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const bool keeps_alpha = pixels.channels == 4;
@@ -210,7 +210,7 @@ std::vector<std::uint8_t> film_pixels(const DecodedImage& picture, const FilmPix
   };
   for (std::size_t at = 0; at < picture.values.size(); at += channels) {
     const float alpha = channels == 2 || channels == 4 ? picture.values[at + channels - 1] : 1.0f;
-    const auto color = [&](std::size_t c) { return picture.values[at + (channels < 3 ? 0 : c)]; };  // times alpha
+    const auto color = [&](std::size_t c) { return picture.values[at + (channels < 3 ? 0 : c)]; };  // premultiplied
     for (std::size_t c = 0; c < 3; ++c)
       append(keeps_alpha ? (alpha > 0.0f ? color(c) / alpha : 0.0f) : color(c) + (1.0f - alpha));
     if (keeps_alpha) append(alpha);

@@ -10,14 +10,13 @@
 
 namespace meniscus::farm {
 
-/// A hidden folder for what is not finished, made by the main thread. It vanishes with this object, and when the
-/// program is stopped.
+/// A hidden folder of the main thread for unfinished files. It is deleted with this object or when the program stops.
 class HiddenFolder {
  public:
   /// Makes PARENT/.NAME.RANDOM.part, which no other process on any machine has. Throws OutputError.
   HiddenFolder(const std::filesystem::path& parent, std::string_view name);
   ~HiddenFolder() {
-    const auto held = hold_stops();  // of two threads that remove the same folder, both may give up
+    const auto held = hold_stops();  // if two threads remove the same folder, both may give up
     remove();
   }
   HiddenFolder(const HiddenFolder&) = delete;
@@ -26,7 +25,7 @@ class HiddenFolder {
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  /// StopBarrier and stop_children() see to it that nothing is written into the folder at this time.
+  /// Removes the folder; StopBarrier and stop_children() prevent that anything is written into it meanwhile.
   void remove() const {
     std::error_code failed;
     std::filesystem::remove_all(path_, failed);
@@ -40,8 +39,8 @@ class HiddenFolder {
                     std::nullopt};
 };
 
-/// Writes a file whole or not at all, and the folders that it lies in; an older file is replaced. The main thread calls
-/// it, and a program that is being stopped writes nothing more. Throws OutputError.
+/// Writes a complete file or none, and creates its folders; an older file is replaced. The main thread calls it, and a
+/// program that is being stopped writes nothing more. Throws OutputError.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Return the SHA-256 of a text or of a file's content, as 64 hexadecimal digits (FIPS 180-4). The second one throws
@@ -49,39 +48,37 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 std::string sha256(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& path);
 
-/// Returns the places, in order, of paths whose files are not there. A PNG file without its end counts as missing:
-/// frames are written whole or not at all, but a machine that loses its power may cut them. Folders are listed, because
-/// a network's file system answers questions about single names from memory.
+/// Returns the indices, in order, of paths whose files are missing. A PNG file without its end counts as missing:
+/// frames are written completely or not at all, but a power failure may cut them. Folders are listed, because a
+/// network's file system may answer questions about single names from memory.
 std::vector<std::size_t> missing_files(const std::vector<std::string>& paths);
 
-/// Returns those frames, in order, that have no result of the step. A scene is there if its files have the sizes that
-/// its result, a list of these files, says.
+/// Returns those frames, in order, that have no result of the step. A scene is complete if its files have the sizes in
+/// its result, which lists these files.
 std::vector<std::uint64_t> missing_frames(const Bundle& bundle, const std::filesystem::path& folder, Step step,
                                           const std::vector<std::uint64_t>& frames);
 
-/// Checks the sizes of the bundle's inputs, and the checksums of those up to 256 MiB, or of all if `thorough`. Throws
-/// InputError.
+/// Checks sizes of the bundle's inputs, and checksums up to 256 MiB, or of all if `thorough`. Throws InputError.
 void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough);
 
 /// Removes the unfinished files that killed workers left in a bundle.
 void remove_leftovers(const std::filesystem::path& folder);
 
-/// A frame that is not good.
+/// A fault of a frame.
 struct FrameFault {
-  std::string sentence;   ///< what is wrong
-  bool is_there = false;  ///< true if a worker would not make it again
+  std::string sentence;   ///< the fault in words
+  bool is_there = false;  ///< true if a picture exists, so that no worker would make it again
 };
 
 /// Faults by the number of the frame.
 using FrameFaults = std::map<std::uint64_t, FrameFault>;
 
-/// Finds frames that are missing, and pictures that cannot be read, have the wrong size, or are blank: all pixels
-/// equal.
+/// Finds missing frames, and pictures that cannot be read, have the wrong size, or are blank: all pixels equal.
 FrameFaults faults_of(const Bundle& bundle, const std::filesystem::path& folder);
 
-/// The choice of what a film shows instead of a frame that is not good.
+/// The picture that a film shows instead of a frame that is not good.
 enum class InPlace {
-  hold,  ///< the frame before once more; before the first good frame that one
+  hold,  ///< the frame before it again; before the first good frame, that one
   drop   ///< nothing: the film is shorter
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Builds a bundle next to its final name, tries one frame, fills the templates of the engines, and renames the folder.
+// Makes a bundle next to its final name: tries one frame, fills the templates of the engines, renames the folder.
 #include "app/farm/make_bundle.h"
 
 #include <fstream>
@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Turns a name into letters, digits and "._-". Its end tells the format, so it is kept; a leading dot or dash would
-/// hide or mislead.
+/// Turns a name into letters, digits and "._-". Its end is kept because it names the format; a leading dot or dash
+/// would hide the file or mislead.
 std::string plain(std::string name) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
   constexpr std::size_t kLongest = 100;
@@ -40,11 +40,11 @@ std::string plain(std::string name) {
 /// Collects the inputs of a bundle.
 class BundleInputs {
  public:
-  /// If by_reference, files that the command reads stay where they are.
+  /// If by_reference is true, files that the command reads stay where they are.
   explicit BundleInputs(bool by_reference) : by_reference_(by_reference) {}
 
-  /// Adds a file that the command reads, and returns its path for a command that runs in the bundle. The same file has
-  /// one name however often it is added. Throws InputError.
+  /// Adds a file that the command reads, and returns its path for a command that runs in the bundle. A file that is
+  /// added several times has one name. Throws InputError.
   std::string add_file(const fs::path& source) {
     if (!fs::is_regular_file(source))
       throw InputError(source.string(), 0, "is not a regular file and cannot be bundled");
@@ -141,7 +141,7 @@ std::optional<Camera> default_camera(const Scene& scene, const GivenCameras& giv
   return run_cameras(molecule, scene.run_camera, given, frames).front();
 }
 
-/// Measures colours where that saves work for each worker: buried areas need the surfaces of all frames. Returns their
+/// Measures colours if that saves work for each worker: buried areas need the surfaces of all frames. Returns their
 /// range, unless the command has one.
 std::optional<std::array<double, 2>> measured_range(Scene& scene, ShownFrames& frames) {
   ColorScheme& color = scene.molecule.color;
@@ -161,7 +161,7 @@ std::vector<std::string> bundled_words(const BundledCommand& command, const std:
   scene.molecule.surface.cpu = false;
   scene.molecule.surface.gl = {};
   scene.molecule.surface.threads = 0;
-  // The camera that is added includes everything that these values say of the default one.
+  // The camera that is added replaces these values of the default one.
   if (camera) {
     scene.picture.projection = Projection::perspective;
     scene.picture.direction.reset();
@@ -177,7 +177,7 @@ std::vector<std::string> bundled_words(const BundledCommand& command, const std:
   return words;
 }
 
-/// Makes the first frame and removes it again: the farm's machines should make all of them alike.
+/// Makes the first frame and removes it again, because the farm's machines should make all frames alike.
 void make_trial(const Bundle& bundle, const fs::path& folder, Chunking& measured) {
   Order order;
   order.folder = folder;
@@ -193,8 +193,8 @@ void make_trial(const Bundle& bundle, const fs::path& folder, Chunking& measured
   measured.peak_memory = (memory_of_largest_child() >> 20) + 1;  // in MiB
 }
 
-/// Takes the measurements of an equal bundle that is there, and returns true. Returns false if nothing is there, or
-/// another bundle that `force` allows to replace; throws OutputError for anything else.
+/// Takes the measurements of an equal bundle that exists, and returns true. Returns false if there is none, or another
+/// bundle that `force` allows to replace; throws OutputError for anything else.
 bool take_measurements(const BundleOptions& options, Bundle& bundle) {
   if (!fs::exists(options.folder / "bundle.json")) {
     if (fs::exists(options.folder) && !fs::is_empty(options.folder))
@@ -315,7 +315,7 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
 namespace {
 
 /// Returns three times the time that a task was measured to take, and ten minutes for a slow start. The text is empty
-/// where nothing was measured, so that the site's default counts.
+/// if nothing was measured, so that the site's default applies.
 std::string minutes(const Bundle& bundle) {
   const Chunking& chunking = bundle.chunking;
   if (!chunking.seconds_per_frame) return {};

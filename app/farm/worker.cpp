@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds missing frames, and runs this program, POV-Ray and Blender to make them. Pictures of the renderers appear in a
-// hidden folder of the worker, and get their names when they are whole and without dates.
+// Finds missing frames, and runs this program, POV-Ray and Blender to make them. A renderer's picture appears in a
+// hidden folder of the worker, and gets its name when it is complete and without dates.
 #include "app/farm/worker.h"
 
 #include <fstream>
@@ -24,22 +24,22 @@ using nlohmann::json;
 using Words = std::vector<std::string>;
 using Frames = std::vector<std::uint64_t>;
 
-// A process begins slowly, and makes so many frames that its start is a twentieth of its time.
+// A process starts slowly, so it makes so many frames that its start takes a twentieth of its time.
 constexpr double kStartShare = 1.0 / 20.0;
-// But never more than this part of what is missing, so that workers come to the end together (guided self-scheduling:
-// Polychronopoulos & Kuck, IEEE Trans. Comput. 1987).
+// A process never makes more than this part of the missing frames, so that workers finish together (guided
+// self-scheduling: Polychronopoulos & Kuck, IEEE Trans. Comput. 1987).
 constexpr std::size_t kShareOfRest = 8;
 
 void append(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
 
-/// Keeps why a program failed: its first line about an error, else its last line with text.
+/// Keeps the reason why a program failed: its first line about an error, else its last line with text.
 void keep_reason(std::string_view line, std::string& reason) {
   const std::size_t begin = line.find_first_not_of(" =-\t\r");
   if (begin != std::string::npos && reason.find("rror") == std::string::npos) reason = line.substr(begin);
 }
 
 Words meniscus_command(const Bundle& bundle, Step step, const Order& order, const Frames& frames, bool alone) {
-  // The frames of a run must come from one version, so PATH does not count.
+  // The frames of a run must come from one version, so PATH is not searched.
   Words words{system_file::program_path().string()};
   append(words, bundle.command);
   append(words, bundle.device);
@@ -73,7 +73,7 @@ Words povray_command(const Bundle& bundle, const Order& order, const std::string
   return words;
 }
 
-/// Gives a renderer's picture its name if it is whole, removes the renderer's file, and reports the frame.
+/// Gives a renderer's complete picture its name, removes the renderer's file, and reports the frame.
 void take_picture(const Bundle& bundle, const Order& order, std::uint64_t frame, const fs::path& from, double seconds,
                   const FrameListener& listener) {
   std::ifstream stream(from, std::ios::binary);
@@ -121,8 +121,7 @@ void make_by_blender(const Bundle& bundle, const Order& order, const Frames& fra
                 frames, hearing);
 }
 
-/// Reports the frame that a line from a program is about, and takes it off the list. Returns false for a line that is
-/// for people.
+/// Reports and removes the frame of a line that a program wrote. Returns false for a line that is for people.
 bool take_line(const std::string& line, Frames& frames, const FrameListener& listener) {
   const json event = line.starts_with('{') ? json::parse(line, nullptr, false) : json();
   if (!event.is_object()) return false;
@@ -137,8 +136,8 @@ bool take_line(const std::string& line, Frames& frames, const FrameListener& lis
 }
 
 /// Makes these frames of the step, in this order, and reports each. A process that a signal ends is started once more,
-/// for one frame after another, so that it is known which frame ended it. Throws RunError with the process' own exit
-/// code where it cannot work at all, InputError if it cannot be started.
+/// for one frame after another, so that the frame that ended it is known. Throws RunError with the process' own exit
+/// code if it cannot work at all, InputError if it cannot be started.
 void make_frames(const Bundle& bundle, Step step, const Order& order, const Frames& frames,
                  const FrameListener& listener) {
   {
@@ -178,8 +177,8 @@ class Worker {
   }
 
  private:
-  /// Takes frames that follow each other off those that are open: all of a share that is this worker's alone, else some
-  /// from a place drawn by chance.
+  /// Returns consecutive frames and removes them from those that are open: all of a chunk that is this worker's alone,
+  /// else some from a random place.
   Frames next_batch() {
     if (order_.is_whole_run) open_ = missing_of(order_.steps.back(), open_);
     if (!order_.is_whole_run || open_.empty()) return std::exchange(open_, {});
@@ -208,7 +207,7 @@ class Worker {
 
   void make(Step step, const Frames& batch) {
     if (order_.is_whole_run && bundle_.maker(step) == Maker::povray && batch.size() > 1) {
-      // A process makes one frame, so there is time to look before each; workers with the same batch seldom meet.
+      // A process makes one frame, so there is time to check before each; workers with the same batch seldom meet.
       Frames shuffled = batch;
       std::ranges::shuffle(shuffled, random_);
       for (const std::uint64_t frame : shuffled) make(step, {frame});
@@ -249,11 +248,11 @@ class Worker {
 
   const Bundle& bundle_;
   const Order& order_;
-  Frames open_;  ///< frames that this worker neither made nor tried, and that were missing when it looked last
+  Frames open_;  ///< frames that this worker has not tried and that were missing at its last check
   RunProgress progress_;
   std::mt19937 random_{std::random_device{}()};
-  double worthwhile_ = 1.0;  ///< frames that one process should make at least
-  double seconds_ = 0.0;     ///< time that the frames took
+  double worthwhile_ = 1.0;  ///< least number of frames for one process
+  double seconds_ = 0.0;     ///< seconds that all frames took
   std::set<std::uint64_t> failed_;
   ExitCode first_code_ = kExitOk;
   std::string first_error_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one worker that people and every engine run: makes the missing frames of a bundle by the programs of its steps.
+// A worker that users and every engine run: makes the missing frames of a bundle by the programs of its steps.
 #pragma once
 
 #include "app/farm/bundle.h"
@@ -7,20 +7,20 @@
 
 namespace meniscus::farm {
 
-/// Hears of each frame, once, as soon as it is over.
+/// Gets each frame once, as soon as it is done or has failed.
 struct FrameListener {
   /// files: paths relative to the bundle.
   std::function<void(std::uint64_t frame, const std::vector<std::string>& files, double seconds)> done;
   std::function<void(std::uint64_t frame, int exit_code, const std::string& error)> failed;
 };
 
-/// The work that is to be done on a bundle, and where.
+/// The work on a bundle, and the means for it.
 struct Order {
-  std::filesystem::path folder;       ///< of the bundle; absolute
+  std::filesystem::path folder;       ///< absolute path of the bundle
   std::vector<Step> steps;            ///< in order
   std::vector<std::uint64_t> frames;  ///< in the order of the run
-  bool force = false;                 ///< frames that are there are made again
-  bool is_whole_run = false;          ///< other workers may have the same order
+  bool force = false;                 ///< true if existing frames are made again
+  bool is_whole_run = false;          ///< true if other workers may have the same order
   std::vector<std::string> device;    ///< options of this program, which override the bundle's options
   int threads = 0;                    ///< threads of each process; 0: as many as the bundle says, else all
 };

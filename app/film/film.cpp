@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the arguments of ffmpeg, feeds it pictures, and reads the film to see whether all frames are there.
+// Chooses the arguments of ffmpeg, passes pictures to it, and checks that the film has all frames.
 #include "app/film/film.h"
 
 #include <fmt/format.h>
@@ -13,15 +13,15 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-/// Says when a codec keeps transparency: `on_request` means only where a film is to be transparent.
+/// The transparency of a codec; `on_request`: it is kept only if a film is to be transparent.
 enum class Alpha { never, on_request, always };
 
 struct Codec {
   std::string name;
   Strings endings;                 // endings of the containers that hold it
   Strings arguments;               // arguments of ffmpeg
-  std::vector<int> bits, chromas;  // the first is its own choice
-  int rate_factor = 0, worst = 0;  // its own choice, and the largest; 0 if the codec has no rate factor
+  std::vector<int> bits, chromas;  // the first ones are the defaults
+  int rate_factor = 0, worst = 0;  // the default and the largest factor; 0 if the codec has no rate factor
   Alpha alpha = Alpha::never;
 
   bool keeps_alpha(const FilmFormat& format) const {
@@ -32,7 +32,7 @@ struct Codec {
 const std::vector<Codec>& codecs() {
   static const std::vector<Codec> table{
       {"h264", {".mp4", ".mov", ".mkv"}, {"libx264", "-preset", "medium"}, {8, 10}, {420, 422, 444}, 18, 51},
-      // The encoder does not report on standard error, nor write its version into the stream.
+      // The encoder neither reports on standard error nor writes its version into the stream.
       {"h265",
        {".mp4", ".mov", ".mkv"},
        {"libx265", "-preset", "medium", "-tag:v", "hvc1", "-x265-params", "log-level=error:info=0"},
@@ -63,7 +63,7 @@ std::string ending_of(const std::string& path) {
 
 bool holds(const auto& list, const auto& value) { return std::ranges::find(list, value) != list.end(); }
 
-/// Returns the first codec that the container of this name holds and that keeps transparency where it is wanted.
+/// Returns the first codec that the container of this name holds and that keeps transparency if it is wanted.
 const Codec& codec_of(const std::string& path, const FilmFormat& format) {
   const std::string ending = ending_of(path);
   Strings fitting;
@@ -84,7 +84,7 @@ const Codec& codec_of(const std::string& path, const FilmFormat& format) {
   throw UsageError("--codec {}: {} films hold {}", format.codec, ending, fmt::join(fitting, ", "));
 }
 
-/// Returns the requested value if the codec has it; its own choice if the request is 0.
+/// Returns the requested value if the codec has it; its default if the request is 0.
 int chosen(const Codec& codec, const char* option, const std::vector<int>& possible, int requested) {
   if (requested == 0) return possible.front();
   if (holds(possible, requested)) return requested;
@@ -99,7 +99,7 @@ int rate_factor_of(const Codec& codec, const FilmFormat& format) {
   return requested;
 }
 
-/// DNxHR names bits and chroma together; at 8 bits it has no 4:4:4.
+/// Returns the profile of DNxHR, which combines bits and chroma; at 8 bits it has no 4:4:4.
 std::string profile_of_dnxhr(int bits, int chroma) {
   if (chroma == 444 && bits == 8) throw UsageError("--chroma 444: dnxhr has it with --bits 10 only");
   return chroma == 444 ? "dnxhr_444" : bits == 10 ? "dnxhr_hqx" : "dnxhr_hq";
@@ -126,7 +126,7 @@ FilmEncoder film_encoder(const std::string& path, const FilmFormat& format) {
   const auto append = [&](const Strings& more) { arguments.insert(arguments.end(), more.begin(), more.end()); };
   encoder.pixels = {keeps_alpha ? 4 : 3, bits > 8 ? 2 : 1};
   if (codec.name == "gif") {
-    // A palette a picture: one for all would need all of them at once.
+    // Each picture has a palette, because one for all would need all of them at once.
     append({"-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1", "-c:v"});
     append(codec.arguments);
     if (format.rate_factor) rate_factor_of(codec, format);
@@ -156,7 +156,7 @@ namespace {
 
 using Size = std::uint64_t;
 
-/// A box of MP4 or an element of Matroska: its kind, and where its content lies.
+/// A box of MP4 or an element of Matroska: its kind, and the range of its content.
 struct Part {
   Size kind = 0, begin = 0, end = 0;
 };
@@ -208,7 +208,7 @@ Size pictures_of_mp4(const BinaryFile& file) {
   Part box = first_of(top, four_letters("moov"), "moov box");
   for (const std::string_view name : {"trak", "mdia", "minf", "stbl", "stsz"})
     box = first_of(boxes(file, box.begin, box.end), four_letters(name), fmt::format("{} box", name));
-  constexpr Size kSizes = 12;  // the sizes are behind version and flags, the size of all samples or 0, and their count
+  constexpr Size kSizes = 12;  // the sizes follow version and flags, the size of all samples or 0, and their count
   if (box.end - box.begin < kSizes) cut_short(box.begin);
   const Size equal = number(file, box.begin + 4, 4), count = number(file, box.begin + 8, 4);
   if (equal == 0 && box.end - box.begin < kSizes + 4 * count) cut_short(box.begin);
@@ -218,8 +218,7 @@ Size pictures_of_mp4(const BinaryFile& file) {
   return count;
 }
 
-/// Returns the elements of EBML (RFC 8794). The leading zero bits of the first byte tell the length of an identifier or
-/// a size.
+/// Returns the elements of EBML (RFC 8794). Leading zero bits give the length of an identifier or a size.
 std::vector<Part> elements(const BinaryFile& file, Size begin, Size end) {
   std::vector<Part> found;
   const auto length_at = [&](Size offset, Size longest) {
@@ -255,8 +254,7 @@ Size pictures_of_matroska(const BinaryFile& file) {
   return count;
 }
 
-/// Returns the place behind a block's data. It comes in pieces of up to 255 bytes, each after its length; a piece of 0
-/// bytes ends them.
+/// Returns the end of a block's data: pieces of up to 255 bytes, each after its length; a piece of 0 bytes ends them.
 Size end_of_pieces(const BinaryFile& file, Size at) {
   while (at < file.size()) {
     const Size length = number(file, at, 1);
@@ -304,7 +302,7 @@ std::vector<std::string> arguments(const FilmEncoder& encoder, const std::string
                                  fmt::format("{}x{}", size.x, size.y), "-framerate",
                                  fmt::format("{}", frames_per_second), "-i", "pipe:0"};
   words.insert(words.end(), encoder.arguments.begin(), encoder.arguments.end());
-  // The film has no names, dates or versions.
+  // The film contains no names, dates or versions.
   words.insert(words.end(), {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", output});
   return words;
 }
@@ -353,7 +351,7 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
   }
 }
 
-/// On a full disk ffmpeg may end with 0, and reports the fault on standard error only.
+/// Returns why the film failed; on a full disk ffmpeg may end with 0, and reports the fault on standard error only.
 std::string FilmWriter::fault() {
   const int code = encoder_->finish();
   const std::string said = in_one_line(encoder_->complaints());

@@ -30,7 +30,7 @@ struct Arguments {
   std::optional<std::uint16_t> port;        ///< -socketPort
 };
 
-/// True for radii within the limits of -probe_radius; the next function does the same for -density. NaN is rejected.
+/// Returns true for radii within the limits of -probe_radius; the next function does so for -density. NaN is rejected.
 bool is_probe_radius(double radius);
 bool is_density(double density);
 
@@ -53,8 +53,7 @@ class ChosenSurface {
   std::size_t component_count() const { return chosen_.size(); }
   /// Returns the size of each selected component.
   std::vector<ReducedComponentSize> sizes() const;
-  /// Returns the areas of the atoms, for each selected component. Throws CapacityError for more than 2^26 numbers of
-  /// each kind.
+  /// Returns the areas of atoms for each selected component. Throws CapacityError for more than 2^26 numbers.
   std::vector<AtomAreas> areas() const;
   /// Triangulates the components; must be called before mesh(). Throws OpenSurfaceError.
   void triangulate();

@@ -28,8 +28,7 @@ Spheres read_spheres(const std::string& file);
 /// kLargestRadius (Å), for a coordinate beyond kLargestCoordinate (Å), and if no ball has a radius above 0.
 Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, const std::string& file);
 
-/// Implements -noh: removes the balls of radius 1.2 Å, by which MSMS recognizes hydrogens. Throws InputError if no
-/// other ball exists.
+/// Implements -noh: removes balls of radius 1.2 Å, MSMS' hydrogens. Throws InputError if there are no others.
 void leave_out_hydrogens(Spheres& spheres);
 
 /// The output files of a run. commit() gives them their final names, folder by folder, and replaces existing files;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Implements local_socket.h for Linux and macOS.
+// Implements LocalSocket (socket_server.h) for Linux and macOS.
 #include <cstring>
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Implements local_socket.h for Windows.
+// Implements LocalSocket (socket_server.h) for Windows.
 #include <climits>
 #include <system_error>
 
@@ -27,7 +27,7 @@ std::optional<LocalSocket> LocalSocket::listening_on(std::uint16_t port) {
   const SOCKET number = ::socket(AF_INET, SOCK_STREAM, 0);
   if (number == INVALID_SOCKET) return {};
   LocalSocket socket(static_cast<std::intptr_t>(number));
-  const BOOL on = TRUE;  // a port is free here as soon as its socket is closed, and no other program may take it before
+  const BOOL on = TRUE;  // frees the port as soon as its socket is closed, and no other program may take it before
   ::setsockopt(number, SOL_SOCKET, SO_EXCLUSIVEADDRUSE, reinterpret_cast<const char*>(&on), sizeof on);
   sockaddr_in here{};
   here.sin_family = AF_INET;

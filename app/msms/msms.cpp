@@ -69,7 +69,7 @@ void send(const LocalSocket& client, const std::vector<T>& values) {
 
 struct SentSphere {
   float x, y, z, radius;
-  std::int32_t flag;  // as in files; VMD's value is ignored
+  std::int32_t flag;  // the flag of files; VMD's value is ignored
 };
 
 Spheres receive_spheres(const LocalSocket& client, Arguments& arguments) {
@@ -160,8 +160,7 @@ std::string analytic_table(double probe_radius, std::span<const ReducedComponent
   return table;
 }
 
-/// Returns volume and area of each component, and the sum of volumes. MSMS computes them from triangles; these are in
-/// closed form.
+/// Returns volume and area of each component, and the sum of volumes, in closed form; MSMS takes them from triangles.
 std::string numeric_table(double probe_radius, std::span<const ReducedComponentSize> sizes) {
   std::string table = "NUMERICAL VOLUMES AND AREA\n    Comp. probe_radius SES_volume SES_area)\n";
   double total = 0;
@@ -184,7 +183,7 @@ std::string with_extension(const std::string& path, const std::string& extension
   return path.ends_with(extension) ? path : path + extension;
 }
 
-/// Returns P.vert for component 0, P_k.vert for component k.
+/// Returns P.vert for component 0, and P_k.vert for component k.
 std::string mesh_path(const Arguments& arguments, std::size_t component, const char* extension) {
   return arguments.mesh_files + (component ? "_" + std::to_string(component) : "") + extension;
 }

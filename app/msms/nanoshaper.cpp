@@ -24,7 +24,7 @@ struct ShaperSettings {
   double probe_radius = 1.4;      ///< Probe_Radius, Å
   double grid_scale = 2.0;        ///< Grid_scale: points of its grid per Å
   bool fill_cavities = false;     ///< Cavity_Detection_Filling: small cavities are left out
-  double smallest_cavity = 11.4;  ///< Conditional_Volume_Filling_Value, Å³: the smallest volume of a cavity that stays
+  double smallest_cavity = 11.4;  ///< Conditional_Volume_Filling_Value, Å³: the smallest cavity that stays
   std::string root;               ///< Root_FileName: the beginning of file names
   bool msms_files = true;         ///< .vert and .face: unless Save_Mesh_MSMS_Format is false
   bool off_file = true;           ///< .off: unless Save_Mesh_MSMS_Format is true
@@ -71,7 +71,7 @@ struct Key {
 /// Ignores a key that changes how NanoShaper works, how good its mesh is, or surfaces that are refused here.
 void pass_over(const Value&, ShaperSettings&) {}
 
-/// Refuses a key that requests a file that is not available here, or atoms to be left out.
+/// Throws for a key that requests a file that is not available here, or atoms to be left out.
 void must_be_false(const Value& value, ShaperSettings&) {
   if (value.truth()) value.refuse("false; meniscus-nanoshaper does not have this feature");
 }
@@ -211,7 +211,7 @@ MsmsMesh rows_of(const FineMesh& even, const std::vector<bool>& stays) {
       }
       triangle.corner[c] = row[vertex];
     }
-    triangle.face = 1;  // and contact: NanoShaper distinguishes neither
+    triangle.face = 1;  // the kind is contact: NanoShaper distinguishes neither faces nor kinds
     rows.triangles.push_back(triangle);
   }
   weld_for_files(rows);
@@ -239,7 +239,7 @@ ExitCode run(std::span<const char* const> words) {
     for (const std::string& name : {vert, face}) files.begin(name);
   if (settings.off_file) files.begin(off);
   Spheres spheres = read_spheres(settings.spheres);
-  spheres.rows.names.clear();  // always nine columns
+  spheres.rows.names.clear();  // the files always have nine columns
   const Surface surface = compute_surface_cpu(spheres.balls, settings.probe_radius);
   require_closed(surface);
   EvenMeshOptions fineness;

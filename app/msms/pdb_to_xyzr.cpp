@@ -50,7 +50,7 @@ Request parse(std::span<const char* const> words, bool named) {
   return request;
 }
 
-/// Removes blanks, which would end the column.
+/// Returns a name without blanks, which would end the column.
 std::string without_blanks(std::string_view name) {
   std::string text;
   for (const char c : name)

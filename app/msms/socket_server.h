@@ -21,12 +21,11 @@ class LocalSocket {
   LocalSocket(LocalSocket&& other) noexcept : number_(other.number_) { other.number_ = kNone; }
   LocalSocket& operator=(LocalSocket&&) = delete;
 
-  /// True if a client has connected within this time.
+  /// Returns true if a client has connected within this time.
   bool has_caller(int milliseconds) const;
   /// Accepts the first client. Each later transfer fails if it takes more than `seconds`.
   std::optional<LocalSocket> caller(int seconds) const;
-  /// Returns the number of bytes received or sent, possibly fewer than requested; 0 if the other side has closed, -1 on
-  /// failure.
+  /// Return the number of transferred bytes, possibly fewer than requested; 0 if the other side closed, -1 on failure.
   std::ptrdiff_t receive(std::span<std::byte> bytes) const;
   std::ptrdiff_t send(std::span<const std::byte> bytes) const;
 

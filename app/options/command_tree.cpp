@@ -39,8 +39,7 @@ OptionEntry entry_of(const CLI::Option& option) {
   return entry;
 }
 
-/// True if the name of a value, such as FILE, is that of a path; for options and arguments outside of the property
-/// table.
+/// Returns true if the name of a value, such as FILE, is that of a path, for options outside of the property table.
 bool names_path(std::string_view word) {
   constexpr std::array<std::string_view, 6> kPaths{"FILE", "FOLDER", "BUNDLE", "DIR", "INTO", "FROM"};
   return std::ranges::any_of(kPaths, [&](std::string_view path) { return word.starts_with(path); });

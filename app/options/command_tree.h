@@ -23,7 +23,7 @@ struct OptionEntry {
   bool value_optional = false;     ///< true if its value may be left out
   std::vector<std::string> words;  ///< values to propose; empty if values are not words
 
-  /// True if the value is a path.
+  /// Returns true if the value is a path.
   bool takes_path() const;
 };
 
@@ -44,7 +44,7 @@ struct CommandEntry {
   std::vector<CommandEntry> commands;
 };
 
-/// True if the values of an option are paths.
+/// Returns true if the values of an option are paths.
 bool takes_path(const CLI::Option& option);
 
 /// Returns the entry of the program with everything below it.

@@ -107,7 +107,7 @@ bool is_one(const CLI::Option& option, bool (*such)(const Property& property)) {
   });
 }
 
-/// True if both paths are one file, or would be for some number in place of #.
+/// Returns true if both paths are one file, or would be for some number instead of #.
 bool can_be_one_file(const std::string& a, const std::string& b) {
   std::error_code failed, ignored;
   // The path is made absolute first, because weakly_canonical() leaves a path relative if no part of it exists.
@@ -115,7 +115,7 @@ bool can_be_one_file(const std::string& a, const std::string& b) {
     return fs::weakly_canonical(fs::absolute(path, failed), failed).string();
   };
   const auto has_frame_in = [](const std::string& numbered, const std::string& other) {
-    constexpr std::uint64_t kSomeFrame = 987654321;  // for two patterns: it has as many digits as either requires
+    constexpr std::uint64_t kSomeFrame = 987654321;  // has as many digits as either of two patterns requires
     const std::optional<NumberedPath> frames = NumberedPath::parse(numbered), others = NumberedPath::parse(other);
     return frames && frames->names(others ? others->at(kSomeFrame) : other);
   };

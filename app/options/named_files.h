@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files on a command line: numbered outputs, outputs that would replace inputs, and storyboards, which hold the scenes
-// of a film in one JSON file, with its times.
+// Files on a command line: numbered outputs, outputs that would replace inputs, and storyboards, which are JSON files
+// with the scenes and times of a film.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class App;
 
 namespace meniscus {
 
-/// The path of numbered files, with # in place of digits.
+/// The path of numbered files, with # instead of digits.
 class NumberedPath {
  public:
   /// Parses a path in whose file name the last run of # represents the number. Returns nothing if there is no #.
@@ -26,7 +26,7 @@ class NumberedPath {
 
   /// Returns the path of a number. Leading zeros give it at least as many digits as there are #.
   std::string at(std::uint64_t number) const;
-  /// True if at() returns this path for some number.
+  /// Returns true if at() returns this path for some number.
   bool names(std::string_view path) const;
 
  private:
@@ -54,7 +54,7 @@ class NamedFiles {
  private:
   void protect(const std::filesystem::path& path);
 
-  std::set<std::pair<std::uint64_t, std::uint64_t>> inputs_;  ///< identities of files, as in system_file::State
+  std::set<std::pair<std::uint64_t, std::uint64_t>> inputs_;  ///< identities of files: system_file::State
   std::vector<std::pair<std::string, std::string>> outputs_;  ///< option and path
 };
 

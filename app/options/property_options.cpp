@@ -214,7 +214,7 @@ std::vector<std::string> scene_words(const Scene& scene,
       const std::string text = named(*property, given);
       if (property->type == ValueType::flag) {
         words.push_back(option);
-      } else if (text.starts_with('-') || text.empty()) {  // it would be read as an option, or be lost
+      } else if (text.starts_with('-') || text.empty()) {  // such a text would be read as an option, or be lost
         words.push_back(fmt::format("{}={}", option, text));
       } else {
         words.push_back(option);

@@ -25,7 +25,7 @@ class TakenProperties {
  public:
   /// `names` are headings of the help, such as "Colour", and keys, such as "molecule.quiet". A name that begins with a
   /// minus removes its properties. Names apply in order, so a later one overrules an earlier one. `needs` are
-  /// conditions that this command adds to the conditions of all scenes; ineffective_values() (ineffective_values.h)
+  /// conditions that this command adds to the conditions of all scenes; ineffective_values() (scene_values.h)
   /// tests them. Throws std::logic_error for a name that is neither heading nor key.
   TakenProperties(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) {
     add(names, needs);
@@ -78,7 +78,7 @@ class PropertyOptions {
   explicit PropertyOptions(CLI::App& command) : command_(command) {}
 
   /// Adds a flag, a number within its range, a text or path, or several of them, which are stored unchanged. The types
-  /// of targets are listed behind the definition.
+  /// of targets are listed after the definition.
   template <typename Target>
   CLI::Option* add(std::string_view key, Target& target);
 
@@ -102,17 +102,17 @@ class PropertyOptions {
   CLI::Option* add_switch(std::string_view key, const std::function<void()>& turn_on);
 
  private:
-  /// Returns the place of the text among the property's words. Throws CLI::ValidationError unless it is one of them.
+  /// Returns the index of the text among the property's words. Throws CLI::ValidationError unless it is one of them.
   static std::size_t place_of_word(const Property& property, const std::string& text);
   CLI::Option* finish(const Property& property, CLI::Option* option) const;
 
   CLI::App& command_;
 };
 
-/// Returns the place of a word among a property's words. Throws UsageError if it is none of them.
+/// Returns the index of a word among a property's words. Throws UsageError if it is not one of them.
 std::size_t place_of(const std::string& text, const Property& property);
 /// Returns the meaning of a word. `meanings` must have one entry for each of the property's words, in their order; this
-/// is not checked. An empty text has the first meaning. Throws UsageError if the text is none of the words.
+/// is not checked. An empty text has the first meaning. Throws UsageError for any other text.
 template <typename Meaning>
 Meaning meaning_of(const std::string& text, std::string_view key, std::initializer_list<Meaning> meanings) {
   return text.empty() ? *meanings.begin() : *(meanings.begin() + place_of(text, property_of(key)));
@@ -138,8 +138,7 @@ std::string shell_line(std::span<const std::string> words);
 /// Returns the page `meniscus help scenes`.
 std::string scene_help();
 
-/// Returns a JSON schema (draft 2020-12) of scene files, ending with a newline. docs/reference/scene.schema.json has
-/// the same text.
+/// Returns a JSON schema (draft 2020-12) of scene files, with a final newline: docs/reference/scene.schema.json.
 std::string scene_schema();
 
 }  // namespace meniscus

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares options by the table of properties, and sets the values of a scene from a scene file and from the command
-// line.
+// Declares options by the table of properties, and sets a scene by a scene file and the command line.
 #include "app/options/scene_options.h"
 
 #include <charconv>
@@ -24,8 +23,7 @@
 namespace meniscus {
 namespace {
 
-/// Reads from the environment which GPUs this process may see, which of several it takes, and where their kernels are
-/// kept.
+/// Reads from the environment which GPUs this process may see and take, and where it keeps their kernels.
 void read_environment(DeviceChoice& choice) {
   const char* const kept = std::getenv(kKernelVariable);
   if (const std::string cache = cache_folder(); !cache.empty() && !(kept && std::string_view(kept) == "off"))
@@ -39,7 +37,7 @@ void read_environment(DeviceChoice& choice) {
   }
 }
 
-/// Returns words to propose that other tables define.
+/// Returns proposed words that other tables define.
 std::vector<std::string> proposed_words(std::string_view key) {
   std::vector<std::string> words;
   const auto add = [&](const auto& table, auto name) {
@@ -66,7 +64,7 @@ void add_option(CLI::App& command, const Property& property) {
     command.add_flag(name)->description(help_of(property))->group(group_of(property));
     return;
   }
-  // Values are not parsed here, but when all are known.
+  // Values are parsed when all of them are known.
   CLI::Option* const option = command.add_option(name)->description(help_of(property))->group(group_of(property));
   option->type_name(std::string(property.value));
   if (property.has(repeatable)) option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);

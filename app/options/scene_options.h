@@ -10,8 +10,7 @@
 
 namespace meniscus {
 
-/// The number of warnings about unusual things in a file. full: a line for every atom; summary: a sentence for every
-/// kind.
+/// The number of warnings about a file. full: a line for every atom; summary: a sentence for every kind.
 enum class WarningDetail { full, summary, none };
 
 /// The form in which a run of frames reports its progress.
@@ -40,8 +39,7 @@ struct SceneCommand {
   bool force = false;                   ///< true: outputs may replace existing files
   bool any_cost = false;                ///< true: pictures may have more than kMostRays rays
   std::string save_scene, save_camera;  ///< paths; empty: not saved
-  /// The files that were added to the molecule when it was read, for scenes that are saved. Copies of the command share
-  /// this list.
+  /// Files that were added to the molecule, for scenes that are saved. Copies of the command share this list.
   std::shared_ptr<std::vector<AddedFile>> added = std::make_shared<std::vector<AddedFile>>();
 
   Existing existing() const { return force ? Existing::replace : Existing::refuse; }
@@ -69,8 +67,7 @@ class SceneOptions {
   /// Sets the description of -o. If it is optional, a scene file may name the output.
   void describe_output(const std::string& what, OutputName name = OutputName::required);
 
-  /// Suppresses the note that this property of a scene is not shown: the command shows it without having an option for
-  /// it.
+  /// Suppresses the note that this property is not shown, because the command shows it without having an option for it.
   void show_anyway(std::string_view key) { shown_anyway_ = key; }
   /// Suppresses notes about values that may have an effect later, because the scene changes while it is shown.
   void be_live() { is_live_ = true; }
@@ -83,12 +80,11 @@ class SceneOptions {
   /// SelectionError; InputError for a file that is not a scene or names files that it may not name.
   void take(const std::vector<std::string>& named = {});
 
-  /// True if the command line or the scene file has a value of this property.
+  /// Returns true if the command line or the scene file has a value of this property.
   bool is_given(std::string_view key) const { return typed(key) || places_.contains(std::string(key)); }
-  /// True if the command line has a value of this property.
+  /// Returns true if the command line has a value of this property.
   bool typed(std::string_view key) const;
-  /// Returns the texts of a property on the command line: all texts of a repeatable property, one of others, an empty
-  /// one of a flag.
+  /// Returns the texts of a property on the command line: all of a repeatable property, one of others, "" of a flag.
   std::vector<std::string> typed_texts(const Property& property) const;
   /// Returns the path of the scene file; empty if there is none.
   const std::string& file() const { return file_; }
@@ -134,8 +130,7 @@ struct DeclaredCommand {
 /// The file of --save-scene.
 class SceneOutput {
  public:
-  /// Throws, before any work is done, OutputError if the file cannot be written, and UsageError for a molecule from
-  /// standard input.
+  /// Throws, before any work is done, OutputError for a bad file, and UsageError for a molecule from standard input.
   explicit SceneOutput(const SceneCommand& command);  ///< the command must outlive this object
   /// Writes the file, after the work is done.
   void commit();
@@ -145,20 +140,16 @@ class SceneOutput {
   std::optional<OutputFile> file_;
 };
 
-/// Returns the text of the scene with paths relative to the folder of `path`, where it is to be saved. added: as for
-/// scene_text().
+/// Returns the text of the scene with paths relative to the folder of its file `path`. added: see scene_text().
 std::string scene_text_for(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
 
-/// Returns the JSON of a scene file, of the picture that carries it, or of a scene of a storyboard ("story.json#2").
-/// Throws InputError.
+/// Returns the JSON of a scene file, of a picture, or of a scene of a storyboard ("story.json#2"). Throws InputError.
 std::string read_scene_text(const std::string& file);
 
-/// Returns the folder for indices of frames and compiled kernels, among other caches of the user; empty if there is
-/// none.
+/// Returns the user's cache folder for indices of frames and compiled kernels; empty if there is none.
 std::string cache_folder();
 
-/// The variable that `meniscus work` sets for the programs it starts: the number of their worker on this machine, from
-/// 0.
+/// The variable that `meniscus work` sets for programs: the number of their worker on this machine, from 0.
 inline constexpr const char* kWorkerVariable = "MENISCUS_WORKER";
 /// The variable that controls compiled kernels; "off": they are not kept among other caches of the user.
 inline constexpr const char* kKernelVariable = "MENISCUS_KERNEL_CACHE";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands that move the camera and the time: views, frames, keys of the camera, sizes of pictures; and the strip:
-// scenes that are kept, and the way from each to the next, as `meniscus film` goes. The distance of a camera does not
-// drift, however often it is turned.
+// Commands that change the camera, the frame, the camera's keys, the size of the picture and the strip of kept scenes.
+// The distance of a camera does not drift, however often it is turned.
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"
 #include "app/preview/preview_state.h"
@@ -17,18 +16,18 @@ namespace {
 
 double distance_of(const Camera& camera) { return glm::length(camera.position - camera.target); }
 
-/// Å of height in the target's plane for each Å of distance.
+/// Returns how many Å of height the target's plane shows per Å of the camera's distance.
 double height_per_distance(const Camera& camera) {
   return 2.0 * std::tan(camera.vertical_fov * (std::numbers::pi / 360.0));
 }
 
-/// v turned about the unit vector `axis` (Rodrigues 1840).
+/// Returns v turned about the unit vector `axis` (Rodrigues 1840).
 glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return v * c + glm::cross(axis, v) * s + axis * (glm::dot(axis, v) * (1.0 - c));
 }
 
-/// Moves an orthographic camera back, so that no ball comes before its plane however it turns about its target.
+/// Returns an orthographic camera moved back, so that no ball comes before its plane however it turns about its target.
 Camera outside(Camera camera, std::span<const Ball> balls) {
   if (camera.projection == Projection::perspective) return camera;
   double reach = 0.0;
@@ -79,14 +78,14 @@ Camera overview(std::span<const Ball> balls, double aspect, Projection projectio
 
 namespace {
 
-/// The same state, which is given away, with another camera.
+/// Returns an outcome that takes the state and gives it another camera.
 Outcome seen_from(PreviewState& state, const Camera& camera, nlohmann::json reply = nlohmann::json::object()) {
   state.camera = camera;
   state.overview = false;
   return {std::move(state), Renewal::nothing, std::move(reply)};
 }
 
-/// Of the chosen atoms; none of groups that have none.
+/// Returns the copies reduced to the chosen atoms, without the groups that have none of them.
 std::vector<Instances> copies_of(const std::vector<Instances>& copies, const std::vector<bool>& chosen) {
   std::vector<Instances> kept;
   for (Instances group : copies) {
@@ -161,7 +160,7 @@ Outcome next_frame(const CommandReader&, PreviewState state, const Surroundings&
   const std::size_t next = (state.frame + 1) % around.molecule.frame_count();
   Outcome outcome = at_frame(std::move(state), next, around);
   outcome.reply["frame"] = next;
-  outcome.passes_over_damage = true;  // or playing would never come past it
+  outcome.passes_over_damage = true;  // playing would otherwise stop at the damaged frame
   return outcome;
 }
 
@@ -206,7 +205,7 @@ namespace {
 constexpr std::size_t kMostScenes = 50;
 constexpr double kLongestScene = 3600.0;  // seconds of a scene, as `meniscus film` has it
 
-/// Numbers change steadily; all else is that of the nearer scene.
+/// Returns a figure whose numbers change steadily between two scenes; all else comes from the nearer scene.
 PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to, double share,
                              const Surroundings& around) {
   const PreviewFigure &nearer = share < 0.5 ? from : to, &other = share < 0.5 ? to : from;
@@ -240,7 +239,7 @@ PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to,
   return figure;
 }
 
-/// place: from 0 to the last scene.
+/// Returns the state at a place of the strip, from 0 (the first scene) to the number of the last scene.
 Outcome at_place(PreviewState state, double place, const Surroundings& around) {
   const std::vector<KeptScene>& strip = around.state.strip;
   const auto scene = static_cast<std::size_t>(place);
@@ -255,7 +254,7 @@ Outcome at_place(PreviewState state, double place, const Surroundings& around) {
   return {std::move(state), renewal};
 }
 
-/// The scene that "index" names.
+/// Returns the scene that "index" names.
 std::vector<KeptScene>::iterator scene_in(const CommandReader& command, PreviewState& state) {
   if (state.strip.empty()) throw RequestError("{}: no scene is kept", command.word());
   return state.strip.begin() + command.integer("index", 0, static_cast<int>(state.strip.size()) - 1);
@@ -325,7 +324,7 @@ Outcome next_of_strip(PreviewState state, const Surroundings& around) {
     next.state = std::move(state);
   } else {
     const double steps = static_cast<double>(kept.between(rate)) + 1.0;
-    constexpr double kRounding = 1e-6;  // of a share that is a whole number of steps
+    constexpr double kRounding = 1e-6;  // tolerance of a share that is a whole number of steps
     const double share = (std::floor(way * steps + kRounding) + 1.0) / steps;
     next = at_place(std::move(state), static_cast<double>(scene) + std::min(share, 1.0), around);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes commands, joins two that follow each other; errors about values name the key.
+// Reads and writes commands, and merges two that follow each other; errors about values name the key.
 #include "app/preview/command_json.h"
 
 #include <algorithm>
@@ -66,10 +66,10 @@ bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
   };
   const std::string word = command_word(first);
   if (!same("command")) return false;
-  // A pick that is waited for is a click, and each click counts.
+  // A pick that waits is a click, and each click counts.
   const auto waits = [](const nlohmann::json& pick) { return !pick.contains("wait") || pick["wait"] != false; };
   if (word == "pick" && (waits(first) || waits(second))) return false;
-  // What is removed from a list gives its index to the next entry.
+  // An entry that is removed from a list gives its index to the next entry.
   const auto removes = [](const nlohmann::json& set) {
     return set.contains("index") && set.contains("value") && set["value"].is_null();
   };
@@ -82,7 +82,7 @@ bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
 
 CommandLog::CommandLog(const std::filesystem::path& path, Existing existing) : path_(path.string()) {
   check_output(path, existing);
-  std::filesystem::remove(path);  // what other names of it hold stays
+  std::filesystem::remove(path);  // a new file: other hard links of the old one keep their content
   stream_.open(path, std::ios::trunc);
   check_written(stream_, path_);
 }
@@ -114,7 +114,7 @@ void print_reply(const std::string& path, std::size_t line, const nlohmann::json
 
 namespace {
 
-/// A value as it may be in a message: short, and in one line.
+/// Returns a value as messages show it: shortened and in one line.
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t kLongest = 60;
   return shortened(value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace), kLongest);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of commands, and the commands of the session itself: undo, redo and quit.
+// The table of commands, and the commands undo, redo, end_step and quit.
 #include "app/preview/commands.h"
 
 namespace meniscus {
@@ -53,7 +53,7 @@ std::vector<Command> all_commands() {
   };
 }
 
-/// Words that recorded sessions of former versions may have, and the keys by which "set" does the same.
+/// Words of commands in recorded sessions of former versions, and the keys by which "set" does the same.
 constexpr std::pair<std::string_view, std::string_view> kFormerWords[] = {
     {"surface", "surface.kind"},         {"probe", "surface.probe"},           {"show", "surface.show"},
     {"patches", "surface.patches"},      {"color", "surface.color"},           {"patch_kinds", "surface.color"},

@@ -10,12 +10,12 @@
 
 namespace meniscus {
 
-/// What a command may look at.
+/// The parts of a session that a command may read.
 struct Surroundings {
   const PreviewState& state;
-  const PreviewState& first;  ///< as the preview began
+  const PreviewState& first;  ///< the state when the preview began
   const EditHistory& history;
-  const ShownMolecule& molecule;  ///< of the state
+  const ShownMolecule& molecule;  ///< the molecule in its present state
   ViewCache& pictures;
   Exporter& exporter;
 };
@@ -25,48 +25,47 @@ struct Outcome {
   PreviewState state;
   Renewal renewal = Renewal::nothing;
   nlohmann::json reply = nlohmann::json::object();
-  bool frames_all = false;          ///< where all is in view, it comes into view again
+  bool frames_all = false;          ///< where everything is in view, everything comes into view again
   bool is_saved = false;            ///< a file has this figure
-  bool is_own_step = false;         ///< for undo, whatever the command before it was
-  std::string step{};               ///< steps of this kind that follow each other are one; empty: as the command says
-  bool passes_over_damage = false;  ///< if its frame cannot be read, the command is carried out again from there
+  bool is_own_step = false;         ///< undo takes it back alone, whatever the command before it was
+  std::string step{};               ///< kind of the step; empty: the kind_of_step() of its command
+  bool passes_over_damage = false;  ///< if its frame cannot be read, playing goes on from there
 };
 
-/// Makes another state of one. Like those below it throws RequestError or InputError for a bad command.
+/// Makes a state from another one. Throws RequestError or InputError for a bad command.
 using Reducer = Outcome(const CommandReader& command, PreviewState state, const Surroundings& around);
-/// Answers or exports; the state stays.
+/// Answers or exports without changing the state. Throws RequestError or InputError for a bad command.
 using Service = nlohmann::json(const CommandReader& command, const Surroundings& around);
 
-/// A row of the table.
 struct Command {
-  /// What it does to the picture and to undo.
+  /// How the command affects the picture and undo.
   enum class Effect {
     none,      ///< the picture stays
-    picture,   ///< there is another; not to be undone
-    edit,      ///< and this is a step by itself
-    slide,     ///< the same command again makes one step of both
-    back,      ///< a step is undone
-    forward,   ///< or done again
-    ends_step  ///< the next step is one by itself
+    picture,   ///< there is another picture, which is not undone
+    edit,      ///< there is another picture, and undo takes it back alone
+    slide,     ///< there is another picture, and undo takes back a series of such commands at once
+    back,      ///< the command undoes a step
+    forward,   ///< the command redoes a step
+    ends_step  ///< the next step is undone alone
   };
   std::string_view word;
   std::vector<std::string_view> keys;
   Effect effect;
   std::variant<Reducer*, Service*> run;
-  bool is_recorded = true;  ///< unless it is a question
+  bool is_recorded = true;  ///< false for questions, which no log needs
 
   bool is_step() const { return effect == Effect::edit || effect == Effect::slide; }
   bool makes_picture() const { return effect != Effect::none && effect != Effect::ends_step; }
-  /// True if the next picture of a film that plays would undo what the command does.
+  /// Returns true if the next picture of a film that plays would undo what the command does.
   bool pauses_film() const { return makes_picture() && word != "next_frame" && word != "resize"; }
-  /// Steps of one kind that follow each other are one; empty: this is a step by itself.
+  /// Returns the kind of the step; successive steps of one kind are undone together. Empty: the step is undone alone.
   std::string_view kind_of_step() const { return effect == Effect::edit ? std::string_view() : word; }
 };
 
-/// The row of a command. Throws RequestError for an unknown word or key.
+/// Returns the row of a command. Throws RequestError for an unknown word or key.
 const Command& row_of(const CommandReader& command);
 
-/// An error that was thrown in carrying out a command, with that command's word before it where there was another's.
+/// Returns the text of an error that a command threw, with the command's word before it unless the text has it.
 std::string said_by(const std::string& word, const std::string& error);
 
 /// Returns the values of all properties that the preview changes, by their keys, for the state.
@@ -74,17 +73,17 @@ nlohmann::json property_values(const PreviewState& state);
 /// Returns what pages need for controls of these properties: names, limits, words and help.
 nlohmann::json property_choices();
 
-/// What the command "state" answers.
+/// Answers the command "state".
 Service get_state;
 
 /// Returns the selections of an atom in the picture, of its residue, and of its chain or kind of molecule.
 nlohmann::json place_selections(const Atom& atom, const ShownMolecule& molecule);
 
-// What the rows name, by file.
+// The functions of the rows, by the file that defines them.
 Reducer orbit, zoom_to, reset_view, set_camera, show_frame, next_frame, set_key, follow_keys, play, pause,
     resize;            // camera_commands.cpp
 Reducer set_property;  // property_commands.cpp
-/// The next picture of a strip that plays; at its end playing ends.
+/// Shows the next picture of a strip that plays; at its end playing ends.
 Outcome next_of_strip(PreviewState state, const Surroundings& around);
 Reducer keep_scene, forget_scene, time_scene, show_strip;  // camera_commands.cpp
 Reducer go_through_history, end_step, quit;                // commands.cpp

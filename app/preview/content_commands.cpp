@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands for working by hand: lists of chains, ligands and residues, where atoms are, and atoms that are hidden,
-// shown again or looked into.
+// Commands that list chains, ligands and residues, locate atoms, and hide, show or cut open atoms.
 #include <cctype>
 
 #include <fmt/ranges.h>
@@ -22,8 +21,8 @@ namespace {
 using Json = nlohmann::json;
 using ShapeKind = RepresentationRequest::Kind;
 
-constexpr std::size_t kMostListed = 1000;      // of a list of contents
-constexpr std::size_t kMostResidues = 20'000;  // of a sequence
+constexpr std::size_t kMostListed = 1000;      // entries in a list of contents
+constexpr std::size_t kMostResidues = 20'000;  // residues in a sequence
 constexpr std::size_t kMostOfOneName = 20;     // ligands or ions of one name that have an entry each
 constexpr std::size_t kMostPoints = 300;       // positions in one reply
 
@@ -115,7 +114,7 @@ std::shared_ptr<const Structure> everything(const Surroundings& around) {
 /// Returns the key of an atom that is the same in all structures of one file.
 std::uint64_t key_of(const Atom& atom) { return std::uint64_t{atom.copy} << 32 | atom.index; }
 
-/// Returns the bits of Atom::shown of atoms that are drawn beside the surface. The ends of dashed lines are not drawn.
+/// Returns the bits of Atom::shown of atoms that are drawn next to the surface. The ends of dashed lines are not drawn.
 std::uint32_t drawn_bits(const FigureRequest& figure) {
   std::uint32_t bits = ~(1u << kHiddenCompanion);
   std::size_t mark = figure.representations.requests.size();
@@ -125,7 +124,7 @@ std::uint32_t drawn_bits(const FigureRequest& figure) {
   return bits;
 }
 
-/// Returns the atoms in the picture, by key_of(), with the sRGB colours of those that belong to the surface.
+/// Returns the atoms in the picture by key_of(), with the sRGB colours of those that belong to the surface.
 std::unordered_map<std::uint64_t, std::optional<glm::vec3>> visible_atoms(const Surroundings& around) {
   std::unordered_map<std::uint64_t, std::optional<glm::vec3>> visible;
   const Structure seen = around.molecule.annotated_structure();
@@ -163,7 +162,7 @@ class Contents {
   std::vector<Entry> entries(const Surroundings& around) const {
     const auto visible = visible_atoms(around);
     std::vector<Entry> entries;
-    std::map<std::string, std::size_t> places;  // of entries, by their selections
+    std::map<std::string, std::size_t> places;  // indices of entries by their selections
     for_each_residue(atoms_, [&](std::size_t first, std::size_t last) {
       Entry fresh = entry_of(first);
       const auto [place, is_new] = places.try_emplace(fresh.selection, entries.size());
@@ -239,14 +238,14 @@ void add_object(PreviewFigure& figure, FigureObjectRequest object) {
   figure.figure.objects.push_back(std::move(object));
 }
 
-/// Draws the selected atoms beside the surface, unless some of them are drawn there already.
+/// Draws the selected atoms next to the surface, unless some of them are drawn there already.
 void draw_beside(const Selection& selection, PreviewFigure& figure, const Surroundings& around) {
   const Structure seen = around.molecule.annotated_structure();
   const std::vector<Atom> atoms = shown_atoms(seen), all = shown_atoms(*everything(around));
   const std::vector<bool> drawn = selection.evaluate(atoms), chosen = selection.evaluate(all);
   for (std::size_t n = 0; n < atoms.size(); ++n)
     if (drawn[n] && (atoms[n].shown & drawn_bits(around.state.figure))) return;
-  bool is_small = true, is_empty = true;  // is_small: nothing but ions and water
+  bool is_small = true, is_empty = true;  // is_small: the atoms are ions and water only
   for (std::size_t n = 0; n < all.size(); ++n) {
     if (!chosen[n]) continue;
     is_empty = false;
@@ -255,12 +254,11 @@ void draw_beside(const Selection& selection, PreviewFigure& figure, const Surrou
   if (!is_empty) add_object(figure, companion_object(selection, is_small ? ShapeKind::spheres : ShapeKind::sticks));
 }
 
-/// Removes the chosen atoms from what is drawn beside the surface. atoms: all atoms in the picture. Returns true if
-/// some were drawn there.
+/// Removes chosen atoms from shapes next to the surface; returns true if there were some. atoms: all in the picture.
 bool remove_shapes(const Selection& selection, PreviewFigure& figure, const std::vector<Atom>& atoms) {
   const std::vector<bool> chosen = selection.evaluate(atoms);
   bool changes = false;
-  /// Returns true if no atom is left.
+  /// Removes the chosen atoms from a selection and returns true if no atom is left.
   const auto without = [&](Selection& of) {
     const std::vector<bool> drawn = of.evaluate(atoms);
     bool loses = false, keeps = false;
@@ -272,7 +270,7 @@ bool remove_shapes(const Selection& selection, PreviewFigure& figure, const std:
   };
   std::erase_if(figure.figure.representations.requests, [&](auto& request) { return without(request.atoms); });
   std::erase_if(figure.figure.objects, [&](auto& object) { return !object.is_dashed() && without(object.atoms); });
-  // Companions are drawn all or none: those that stay become objects.
+  // Companions are drawn all or none, so those that stay become objects.
   const Namer namer(atoms);
   std::map<std::size_t, std::vector<std::string>> stays{{kCompanionSticks, {}}, {kCompanionSpheres, {}}};
   bool loses = false;

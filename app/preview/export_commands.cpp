@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands that write and read files of the output folder: exports, scenes, the command line of a picture.
+// Commands that write and read files of the output folder: exports, scenes, and the command line of a picture.
 
 #include "app/film/film.h"
 #include "app/options/named_files.h"
@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kLongestExportedSide = 16384;  // pixels
-constexpr int kMostSamples = 1024;           // as the property image.samples has it
+constexpr int kMostSamples = 1024;           // the limit of the property image.samples
 
 /// Returns the size and the quality of an exported picture.
 RenderedView picture_options(const CommandReader& command, const PreviewState& state) {
@@ -32,7 +32,7 @@ RenderedView picture_options(const CommandReader& command, const PreviewState& s
           command.flag_or(!state.image.background, "transparent")};
 }
 
-/// Throws RequestError for a name that is none, or of a file that is there and may not be replaced.
+/// Returns the target of an export. Throws RequestError for a bad name, or if an existing file may not be replaced.
 ExportTarget target_of(const CommandReader& command, const std::filesystem::path& folder) {
   ExportTarget target{export_path(folder, command.text("path")),
                       command.flag_or(false, "force") ? Existing::replace : Existing::refuse};
@@ -41,9 +41,9 @@ ExportTarget target_of(const CommandReader& command, const std::filesystem::path
   return target;
 }
 
-enum class Format { png, povray, blender, film, camera, camera_path };  // the last two are written at once
+enum class Format { png, povray, blender, film, camera, camera_path };  // camera and camera_path are written at once
 
-/// A scene is a folder; so no file of another kind is replaced.
+/// Throws RequestError if a name has another ending than its format. A scene is a folder, so its name has no dot.
 void check_ending(const std::string& name, Format format) {
   constexpr std::string_view kEndings[] = {"", "", ".mns", "", ".json", ".json"};
   if (format == Format::film && !is_film_path(name))
@@ -57,7 +57,7 @@ void check_ending(const std::string& name, Format format) {
                            : fmt::format("its name must end in {}", kEndings[static_cast<std::size_t>(format)]));
 }
 
-/// The work of an export of what takes long.
+/// Writes an export that takes long and returns its reply.
 Json written(const ExportedView& view, Format format, bool archives, const MakePictureDevice& make_device,
              const ExportTarget& target, const ExportWatch& watch) {
   Json reply{{"path", target.path.string()}};
@@ -73,7 +73,7 @@ Json written(const ExportedView& view, Format format, bool archives, const MakeP
 
 enum class FilmOf { strip, turntable, frames };
 constexpr std::array<std::string_view, 3> kFilms{"strip", "turntable", "frames"};
-constexpr double kFilmRate = 25.0;  // pictures per second, as --fps has it
+constexpr double kFilmRate = 25.0;  // pictures per second, the default of --fps
 
 /// Returns the films that can be made of the preview; the first is the default.
 std::vector<FilmOf> possible_films(const Surroundings& around) {
@@ -109,7 +109,7 @@ void show_one_frame(Scene& scene, std::uint64_t number) {
   scene.frames.begin = scene.frames.end = scene.frames.only = "";
 }
 
-/// The scene of a turntable or of a film of the frames.
+/// Returns the scene of a turntable or of a film of the frames.
 Scene film_scene(FilmOf film, const CommandReader& command, const Surroundings& around) {
   const PreviewState& state = around.state;
   const ShownMolecule& molecule = around.molecule;
@@ -131,7 +131,7 @@ Scene film_scene(FilmOf film, const CommandReader& command, const Surroundings& 
   return scene;
 }
 
-/// The scene of the picture that a command requests.
+/// Returns the scene of the picture that a command requests.
 Scene shown_scene(const CommandReader& command, const Surroundings& around) {
   const PreviewState& state = around.state;
   const ShownMolecule& molecule = around.molecule;
@@ -145,7 +145,7 @@ Scene shown_scene(const CommandReader& command, const Surroundings& around) {
           "render; choose another scheme",
           command.word(), in_quotes(scheme_word(state.molecule.color)));
     view.model = molecule.model_of(state.frame);
-    // A model alone would have a scale of its own.
+    // One model alone would have its own range of numbers.
     if (state.molecule.color.has_scale() && !(state.molecule.color.takes_file() && state.molecule.color.file.of_colors))
       view.range = color_scale(molecule.structure(), state.molecule.color).range;
   }
@@ -175,7 +175,7 @@ std::string strip_text(const CommandReader& command, const Surroundings& around,
     story.hold.push_back(kept.hold);
     story.transition.push_back(kept.transition);
   }
-  story.transition.pop_back();  // after the last scene
+  story.transition.pop_back();  // the last scene has no transition
   return storyboard_text(story);
 }
 
@@ -202,10 +202,10 @@ FilmOrder film_order(const CommandReader& command, const Surroundings& around, c
   return order;
 }
 
-/// The same as the text that pictures carry; empty where there is none.
+/// Returns the text of the scene that pictures carry; empty if there is none.
 std::string scene_of(const CommandReader& command, const Surroundings& around) {
   if (!around.exporter.context.writes_scenes || around.molecule.has_trajectory())
-    return {};  // frames of a run carry none
+    return {};  // frames of a trajectory carry no scene
   try {
     const Scene scene = shown_scene(command, around);
     return scene_fault(scene).empty() ? scene_text(scene, "", around.molecule.structure().added) : "";

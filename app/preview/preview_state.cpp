@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Remembers figures for undo and redo, and turns what is shown into a scene and back.
+// Remembers figures for undo and redo, and converts figures to scenes and back.
 #include "app/preview/preview_state.h"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostSteps = 100;
 
-/// What makes pictures of the schemes that a preview has not; empty: it has it.
+/// Returns the reason why a preview cannot show a scheme, with the command that can; empty: the preview shows it.
 std::string who_shows(ColorScheme::By scheme, bool has_numbers) {
   using By = ColorScheme::By;
   if (scheme == By::component) return "parts of the surface have no atoms of their own; use meniscus render";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state that commands of a preview change, with the steps before it, and as a scene that `meniscus render` draws.
+// The state that commands of a preview change, its history for undo, and its scene for `meniscus render`.
 #pragma once
 
 #include "core/camera/camera.h"
@@ -13,22 +13,21 @@
 
 namespace meniscus {
 
-/// A figure, whatever its size on the screen: its scene, and the camera in place of the scene's. Commands change it,
-/// undo and redo replace it.
+/// A figure of any size: its scene, and a camera that replaces the scene's. Commands, undo and redo change it.
 struct PreviewFigure : Scene {
   PreviewFigure() {
     image.samples = 4;
     image.background = glm::vec3(1.0f);
   }
-  /// Takes a scene whose colours have the numbers of their file. Of its view only the projection, the size and the
-  /// resolution are kept.
+  /// Takes a scene whose colours have the numbers of their file. The figure keeps only the projection, the size and the
+  /// resolution of the scene's view.
   explicit PreviewFigure(Scene scene);
 
   Camera camera;
-  bool overview = true;                         ///< all is shown, until the camera is moved
-  bool has_size = false;                        ///< exported pictures have the size of the scene; else that of the page
+  bool overview = true;                         ///< everything is in view, until the camera is moved
+  bool has_size = false;                        ///< exported pictures have the size of the scene instead of the page's
   LookPreset preset = LookPreset::publication;  ///< the word that was chosen last; the scene has its light
-  std::uint64_t edition = 0;                    ///< a number of its own for all that was changed, but for the camera
+  std::uint64_t edition = 0;                    ///< a number that changes with the figure, but not with its camera
 
   /// Returns the changes that light may make to the colours.
   Hues hues() const { return hues_of(molecule.color, uses_atoms(figure.cuts)); }
@@ -46,37 +45,35 @@ struct PreviewFigure : Scene {
 struct KeptScene {
   PreviewFigure figure;
   std::size_t frame = 0;                ///< from 0
-  double hold = 2.0, transition = 2.0;  ///< seconds that it is shown, and from it to the next scene
-  std::uint64_t number = 0;             ///< a number of its own, by which a page knows it again
+  double hold = 2.0, transition = 2.0;  ///< seconds that the scene is shown, and that the way to the next scene takes
+  std::uint64_t number = 0;             ///< identifies the scene on the page
 
-  /// Return the numbers of its pictures and of those on the way to the next scene, as `meniscus film` counts them.
-  /// rate: pictures per second.
+  /// Return the numbers of pictures of the scene and of the way to the next scene at a rate, as `meniscus film` does.
   std::uint64_t held(double rate) const;
   std::uint64_t between(double rate) const;
 };
 
-/// Throws RequestError for a scheme whose numbers or parts come with surfaces that a preview does not make; so
-/// for those of its rules.
+/// Throws RequestError if the scheme, or a rule of it, needs surfaces that a preview does not make.
 void require_previewed(const ColorScheme& color);
-/// Whether it is none of these, whatever a preview was begun with.
+/// Returns true if previews show the scheme even without numbers of a file.
 bool is_previewed(ColorScheme::By scheme);
 
-/// All that commands change. A command makes another state of it; the picture follows from the state.
+/// The whole state that commands change. A command makes another state of it; the picture follows from the state.
 struct PreviewState : PreviewFigure {
   std::size_t frame = 0;               ///< from 0
-  std::map<std::size_t, Camera> keys;  ///< of the camera, by frame; all of one projection
+  std::map<std::size_t, Camera> keys;  ///< cameras by frame, all of one projection
   bool follows_keys = false;           ///< showing a frame moves the camera along its keys
   bool playing = false;
   double frames_per_second = 10.0;  ///< while playing
-  glm::ivec2 size{1024, 768};       ///< of the full picture with its legend, in pixels
+  glm::ivec2 size{1024, 768};       ///< size of the full picture with its legend, in pixels
   bool copies_apart = false;        ///< no probe may touch two copies of the structure (Structure::instances)
   std::vector<KeptScene> strip;     ///< scenes kept for a film, in its order
   std::uint64_t last_kept = 0;      ///< the number of the scene that was kept last
-  double strip_place = 0.0;         ///< of the strip, which was shown last
-  std::uint64_t strip_shown = 0;    ///< how many pictures of a film that plays show the scene there
+  double strip_place = 0.0;         ///< the place on the strip that was shown last
+  std::uint64_t strip_shown = 0;    ///< how many pictures of a film that plays have shown the scene at strip_place
   double strip_rate = 25.0;         ///< pictures per second of the strip while it plays
   bool plays_strip = false;         ///< playing goes along the strip, not through the frames
-  std::uint64_t revision = 1;       ///< grows with every change of what is seen
+  std::uint64_t revision = 1;       ///< grows with every visible change
   bool ended = false;               ///< true after the command quit
 
   /// Returns the pictures per second of what plays.
@@ -85,19 +82,19 @@ struct PreviewState : PreviewFigure {
   Look full_look() const { return look_of(look, size, shown_background(), hues(), molecule.patches.has_value()); }
 };
 
-/// What a figure was before each step, for undo and redo. Steps of one kind that follow each other without end_step()
-/// between them, such as the movements of one drag, are one step.
+/// The figures before each step, for undo and redo. Successive steps of one kind without end_step() between them, such
+/// as the movements of one drag, are one step.
 class EditHistory {
  public:
-  /// What was there before a step of this kind; empty: a step by itself.
+  /// Keeps the figure before a step of this kind; if the kind is empty, the step is undone alone.
   void note(std::string_view kind, const PreviewFigure& before);
-  /// The next step is one by itself.
+  /// Makes the next step one that is undone alone.
   void end_step() { kind_.clear(); }
 
-  /// The figure that undo or redo brings back; nullptr: none.
+  /// Return the figure that undo or redo brings back; nullptr if there is none.
   const PreviewFigure* before() const { return past_.empty() ? nullptr : &past_.back(); }
   const PreviewFigure* after() const { return future_.empty() ? nullptr : &future_.back(); }
-  /// It has been brought back in place of the figure there was. There must be one.
+  /// Note that before() or after(), which must not be nullptr, replaces the figure `now`.
   void go_back(const PreviewFigure& now) { move(now, past_, future_); }
   void go_forward(const PreviewFigure& now) { move(now, future_, past_); }
 
@@ -108,7 +105,7 @@ class EditHistory {
   void move(const PreviewFigure& now, std::deque<PreviewFigure>& from, std::deque<PreviewFigure>& to);
 
   std::deque<PreviewFigure> past_, future_;
-  std::string kind_;  ///< of the last step; empty: it is ended
+  std::string kind_;  ///< kind of the last step; empty: the step has ended
 };
 
 /// A picture of a figure.
@@ -118,7 +115,7 @@ struct RenderedView {
   bool transparent = false;                      ///< true: without a background
   std::optional<std::int32_t> model{};           ///< the model that is shown, if the file has several
   std::optional<std::uint64_t> frame{};          ///< the frame of a trajectory
-  std::optional<std::array<double, 2>> range{};  ///< of numbers, if those of one model alone would have another
+  std::optional<std::array<double, 2>> range{};  ///< range of the colour scale, if one model alone would have another
 };
 
 /// Returns the scene that `meniscus render` draws as this picture.
@@ -127,24 +124,24 @@ Scene rendered_scene(const PreviewFigure& figure, const RenderedView& view);
 /// Returns a request for a look with these numbers. `asked` gives the values that are not numbers.
 LookRequest look_request(LookRequest asked, Look look, bool outlines_patches);
 
-// How commands turn and place a camera: pure functions (camera_commands.cpp).
+// Pure functions of camera_commands.cpp that turn and place a camera.
 
-/// Å between the lower and upper edge of the picture, in the plane through the target.
+/// Returns the height of the picture in Å, in the plane through the target.
 double height_at_target(const Camera& camera);
 
-/// Turns about the target as a trackball: the front follows the cursor. drag: in heights of the picture, to the right
-/// and down; a drag over the whole height turns the molecule half around. The distance from the target stays.
+/// Turns a camera about its target like a trackball: the front follows the cursor, the distance stays. drag: to the
+/// right and down, in heights of the picture; a drag over the whole height turns the molecule half around.
 Camera orbited(const Camera& camera, glm::dvec2 drag);
 
-/// The same view by another projection: what lies in the plane of the target keeps its size. An orthographic camera
-/// is outside of all `balls`, whichever way it turns, since it sees nothing behind its plane.
+/// Returns the same view in another projection: objects in the plane of the target keep their size. An orthographic
+/// camera is outside of all `balls`, whichever way it turns, since it sees nothing behind its plane.
 Camera projected(const Camera& camera, Projection projection, std::span<const Ball> balls);
 
-/// Looks the same way at all of `shown`, with a small margin, from outside of all `balls` if orthographic. There must
-/// be a ball in each. aspect: width / height of the picture.
+/// Looks in the same direction at all of `shown`, with a small margin, from outside of all `balls` if orthographic.
+/// Neither may be empty. aspect: width / height of the picture.
 Camera zoomed_to(const Camera& camera, std::span<const Ball> shown, std::span<const Ball> balls, double aspect);
 
-/// The default view of all of the balls (frame_camera), which may be turned any way. There must be a ball.
+/// Returns the default view of at least one ball (frame_camera); all balls stay in view when it is turned.
 Camera overview(std::span<const Ball> balls, double aspect, Projection projection);
 
 }  // namespace meniscus

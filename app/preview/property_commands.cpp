@@ -20,7 +20,7 @@ using Texts = std::vector<std::string>;
 
 constexpr std::string_view kObjects = "figure.object";  // each of its texts is an object of scene files
 
-/// Returns what has to be made again if a property has another value.
+/// Returns what must be made again if a property gets another value.
 Renewal renewal_of(const Property& property, const PreviewFigure& figure) {
   constexpr std::string_view kOfCuts[] = {"surface.shown",    "surface.film_opacity", "surface.clip",
                                           "surface.clip_all", "surface.cap_color",    "surface.cap_hatching"};
@@ -33,7 +33,7 @@ Renewal renewal_of(const Property& property, const PreviewFigure& figure) {
   return section == "camera" ? Renewal::nothing : Renewal::legend;
 }
 
-/// Returns the property that "key" names.
+/// Returns the property that a key names, which previews can change.
 const Property& live_property(const std::string& key) {
   std::vector<std::string_view> keys;
   for (const Property* property : properties()) {
@@ -60,8 +60,7 @@ Texts given_texts(const Property& property, Ordered value) {
   }
 }
 
-/// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length",
-/// "direction" or "text".
+/// Returns the type of a property's control, such as "flag", "selection", "length" or "text".
 std::string_view control_of(const Property& property) {
   constexpr std::string_view kTypes[] = {"flag", "number", "count", "word"};
   if (property.type <= ValueType::word) return kTypes[static_cast<std::size_t>(property.type)];
@@ -78,7 +77,7 @@ struct ListEntry {
 };
 
 /// Puts the texts of one entry into the list of all texts of its property: at the end if `index` is nothing. Without
-/// texts the entry is removed. Of opacities the last one of the same atoms counts, so it replaces the one before.
+/// texts the entry is removed. A new opacity replaces an earlier one of the same atoms.
 ListEntry put_entry(std::optional<int> index, Texts entry, const Property& property, Texts& list) {
   if (property.key == "surface.opacity" && !index)
     std::erase_if(list, [&](const std::string& text) {
@@ -91,7 +90,7 @@ ListEntry put_entry(std::optional<int> index, Texts entry, const Property& prope
   return {place, is_removed};
 }
 
-/// True if both objects are made of the same atoms in the same way, so that only their looks differ.
+/// Returns true if both objects are made of the same atoms in the same way, so that only their looks differ.
 bool has_same_shape(const FigureObjectRequest& a, const FigureObjectRequest& b) {
   return a.shapes == b.shapes && a.text() == b.text() && a.radius == b.radius && a.kind == b.kind &&
          a.probe_radius == b.probe_radius;
@@ -129,7 +128,7 @@ void check_among_others(const Property& property, const Scene& scene, const Show
   if (scene.picture.fits) throw RequestError("'auto' is not a size in pixels, such as 1920x1080");
 }
 
-/// The numbers of a file that a preview was begun with; of fluctuations there are others in their place.
+/// Returns the numbers of the file that a preview began with; none for measured fluctuations.
 const NumberFile& numbers_at_first(const ColorScheme& first) {
   static const NumberFile kNone;
   return first.by == ColorScheme::By::rmsf ? kNone : first.file;
@@ -160,15 +159,13 @@ ColorScheme previewed_scheme(ColorScheme color, const ColorScheme& before, const
   return color;
 }
 
-/// Returns the state with the look of a preset. The figure of the beginning takes the place of what the look before it
-/// drew, or of what this one draws.
+/// Returns the state with the look of a preset. The figure that the preview began with replaces what the presets draw.
 Outcome with_preset(PreviewState state, LookPreset preset, const Surroundings& around) {
   const Preset& before = preset_of(state.preset);
   state.preset = preset;
   state.look = {};
   state.look.preset = state.preset;
   if (before.settings.empty() && preset_of(state.preset).settings.empty()) return {std::move(state), Renewal::legend};
-  // The figure of the beginning takes the place of what another look draws.
   const SessionContext& context = around.exporter.context;
   Scene scene = around.first;
   scene.picture.width = state.size.x;
@@ -186,7 +183,7 @@ Outcome with_preset(PreviewState state, LookPreset preset, const Surroundings& a
   return {std::move(state), Renewal::shapes, {}, true};
 }
 
-/// Changes what depends on a property that was set in the state. before: the state before that.
+/// Changes whatever depends on a property that was set in the state.
 void follow(const Property& property, PreviewState& state, const Surroundings& around) {
   const PreviewState& before = around.state;
   const ColorScheme& first = around.first.molecule.color;
@@ -282,7 +279,7 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
     throw RequestError("{}: {}: {}", word, key, error.what());
   }
   const bool is_changed = entry && word != "add" && !entry->is_removed;
-  // The places of a slider that follow each other are one step; any other value is a step by itself.
+  // Successive places of a slider are one step; any other value is a step by itself.
   const bool is_slid =
       is_changed || (!property.has(repeatable) && std::ranges::find(kSlid, control_of(property)) != std::end(kSlid));
   const bool frames_all = property.key == "surface.kind" || property.section() == "legend";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands that ask: what is under the cursor, how fast it is, what the state is.
+// Commands that ask for the atom under the cursor, times of the renderer, and the state.
 
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"
@@ -35,7 +35,7 @@ Json atom_json(const Atom& atom) {
           {"place", escaped(atom_place(atom))}};
 }
 
-/// Why the molecule cannot be coloured by a scheme; empty: it can.
+/// Returns why the molecule cannot be coloured by a scheme; empty: it can.
 std::string lacking(const Structure& structure, const ColorScheme& color) {
   using By = ColorScheme::By;
   const std::vector<Atom>& atoms = structure.atoms;
@@ -59,7 +59,7 @@ std::string lacking(const Structure& structure, const ColorScheme& color) {
   return {};
 }
 
-/// Returns what a pixel shows, or an atom by its place in the picture's atoms.
+/// Returns the visible point of a pixel, or of an atom by its index in the picture's atoms.
 std::optional<PickedPoint> point_of(const CommandReader& command, const Surroundings& around) {
   const ShownMolecule& molecule = around.molecule;
   if (!command.has("place")) {
@@ -169,7 +169,7 @@ Json pick(const CommandReader& command, const Surroundings& around) {
   if (has_copies) reply["copy"] = point->copy + 1;
   reply["exposed_area"] = nullptr;
   reply["area_follows"] = false;
-  // It has no part of the molecule's surface, or this is another one.
+  // The atom is not part of the molecule's surface, or the point is on another surface.
   if (point->atom >= molecule.atoms().size() || (of_surface && !of_molecule)) return reply;
   if (const std::optional<double> area = around.pictures.exposed_area(state, molecule, point->atom, waits, area_wanted))
     reply["exposed_area"] = *area;

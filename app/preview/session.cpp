@@ -11,14 +11,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// True if a cut depends on the camera.
+/// Returns true if a cut depends on the camera.
 bool follows_view(const FigureRequest& figure) {
   const auto is_of_view = [](const Cut& cut) { return cut.direction == glm::dvec3(0.0); };
   const auto has_such = [&](const FigureObjectRequest& object) { return std::ranges::any_of(object.cuts, is_of_view); };
   return std::ranges::any_of(figure.cuts, is_of_view) || std::ranges::any_of(figure.objects, has_such);
 }
 
-/// A replay waits for each export to end.
+/// Returns the command as it is recorded. A replay waits for each export to end.
 Json recorded(Json command) {
   if (command_word(command) == "export") command.erase("wait");
   return command;
@@ -127,11 +127,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPause = 60ms;      // of the hand, until the draft gets its full size
-constexpr auto kPatience = 400ms;  // with drafts of a surface that nobody wants any more
+constexpr auto kPause = 60ms;      // The draft gets its full size when the hand has paused this long.
+constexpr auto kPatience = 400ms;  // A draft of a surface that is no longer wanted is given up after this time.
 constexpr LiveView::Clock::duration kRest = 150ms, kLongestRest = 1500ms;
 
-/// True if another surface is wanted than the one that has been in the making since `begin`.
+/// Returns true if another surface is wanted than the one that has been computed since `begin`.
 bool is_unwanted(LiveView::Clock::time_point begin, const std::function<Change()>& waiting) {
   return LiveView::Clock::now() - begin > kPatience && waiting() == Change::surface;
 }
@@ -188,7 +188,7 @@ LiveView::Clock::duration LiveView::rest(Quality quality) const {
 Quality LiveView::at_once() const {
   if (!session_.is_drawn() && session_.wants_balls()) return Quality::balls;
   if (!session_.state().playing || !draft_cost_) return Quality::draft;
-  constexpr int kMostLikely = 3;  // drafts of a quarter of the pixels that a plain picture takes
+  constexpr int kMostLikely = 3;  // a plain picture, of 4 times the pixels, likely takes no longer than so many drafts
   const std::chrono::duration<double> frame(0.8 / session_.state().rate());
   return plain_cost_.value_or(kMostLikely * *draft_cost_) < frame ? Quality::plain : Quality::draft;
 }

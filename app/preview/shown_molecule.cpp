@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes again what another state needs, and keeps the rest; draws the legend around a hole for the molecule.
+// Computes the parts of the molecule that another state changes, and draws the legend around the molecule's picture.
 #include "app/preview/shown_molecule.h"
 
 #include "core/queries/copies.h"
@@ -49,8 +49,7 @@ std::vector<std::uint8_t> LegendStrip::around(std::span<const std::uint8_t> mole
 
 namespace {
 
-/// The balls of frames all over a trajectory, or of copies those that reach as far. atoms: of these frames, into
-/// structure.atoms.
+/// Returns the balls of frames all over a trajectory, or of the farthest copies. atoms: into structure.atoms.
 std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Structure& structure,
                                 const std::vector<std::uint32_t>& atoms) {
   constexpr std::size_t kSamples = 16;  // few enough to begin at once, enough to see where the molecule goes
@@ -70,13 +69,13 @@ std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Str
       if (!structure.instances.empty()) balls = reaching_balls(balls, structure.instances);
       sampled.insert(sampled.end(), balls.begin(), balls.end());
     } catch (const InputError&) {
-      if (n == 0) throw;  // a later one is told when it is shown
+      if (n == 0) throw;  // an error of a later frame is reported when it is shown
     }
   }
   return sampled;
 }
 
-/// before: beside the surface so far, of which only colours are changed where no shapes are to be made again.
+/// Returns the objects next to the surface. before: the objects so far; only_colors changes nothing but their colours.
 std::shared_ptr<const FigureExtras> extras_of(const Structure& marked, const PreviewFigure& figure, bool only_colors,
                                               const std::shared_ptr<const FigureExtras>& before) {
   const ColorScheme& scheme = figure.molecule.color;
@@ -86,7 +85,7 @@ std::shared_ptr<const FigureExtras> extras_of(const Structure& marked, const Pre
   return extras;
 }
 
-/// The models that are shown one after another: of several files all atoms are shown together.
+/// Returns the models that are shown one after another; the atoms of several files are shown together.
 std::vector<AtomGroup> models_of(const Structure& structure) {
   if (structure.added.empty()) return group_atoms(structure, Grouping::model);
   AtomGroup all;
@@ -95,7 +94,7 @@ std::vector<AtomGroup> models_of(const Structure& structure) {
   return {all};
 }
 
-/// Those of the surface that the figure shows: with all copies, if there are any; then there are no cuts by atoms.
+/// Returns the balls that the figure shows: of all copies, which selections of atoms never cut, or of the shown atoms.
 std::vector<Ball> balls_shown(const ShownMolecule& molecule, const PreviewFigure& figure) {
   const std::vector<Ball>& balls = molecule.balls();
   return molecule.structure().instances.empty() ? shown_balls(balls, molecule.coloring(figure)) : balls;
@@ -119,7 +118,8 @@ ShownMolecule::ShownMolecule(Structure structure, std::optional<TrajectoryPositi
   if (state.copies_apart) require_apart(structure_, state.probe_reach());
   if (trajectory_) sampled_ = sampled_balls(*trajectory_, structure_, atoms());
   become(state, Renewal::frame);
-  if (state.molecule.show) hidden_atoms(*state.molecule.show, marked_ ? *marked_ : structure_);  // that some are shown
+  // This throws if the selection shows no atoms.
+  if (state.molecule.show) hidden_atoms(*state.molecule.show, marked_ ? *marked_ : structure_);
 }
 
 bool ShownMolecule::become(const PreviewState& state, Renewal renewal) {
@@ -134,7 +134,7 @@ bool ShownMolecule::become(const PreviewState& state, Renewal renewal) {
 }
 
 ShownMolecule::Made ShownMolecule::made_at(const PreviewState& state) {
-  // Read first: what cannot be read changes nothing.
+  // Frames are read first: one that cannot be read changes nothing.
   std::vector<glm::dvec3> positions;
   std::optional<Structure> other;
   if (trajectory_ && trajectory_->structure)
@@ -142,7 +142,7 @@ ShownMolecule::Made ShownMolecule::made_at(const PreviewState& state) {
   else if (trajectory_)
     positions = trajectory_->positions(state.frame);
   std::size_t frame = state.frame;
-  std::optional<std::uint64_t> number;  // by which a file may have numbers of the frame
+  std::optional<std::uint64_t> number;  // number of the frame by which a file may list its numbers
   if (trajectory_) number = number_of(state.frame);
   if (other) other->frame = number;
   const auto exchange = [&] {
@@ -155,7 +155,7 @@ ShownMolecule::Made ShownMolecule::made_at(const PreviewState& state) {
     for (std::size_t n = 0; n < positions.size(); ++n) std::swap(structure_.atoms[n].position, positions[n]);
     std::swap(frame_, frame);
   };
-  exchange();  // colours and selections may depend on where atoms are
+  exchange();
   try {
     if (state.copies_apart && trajectory_) require_apart(structure_, state.probe_reach());
     return made(state, Renewal::frame, state.frame);
@@ -185,7 +185,7 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
         throw InputError(structure_.file, 0, "has other atoms than when the preview began; start the preview again");
     }
   }
-  // Rules such as "within 4 of ligand" see the atoms beside the surface, unless the file has several models.
+  // Rules such as "within 4 of ligand" see the atoms next to the surface, unless the file has several models.
   const bool is_whole = made.marked && made.marked->atoms.size() == structure_.atoms.size();
   if (renewal >= Renewal::colors)
     made.coloring = color_atoms(is_whole ? *made.marked : structure_, figure.molecule.color);
@@ -205,7 +205,7 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
   return made;
 }
 
-/// Of the atoms of the surface those that are shown, which may be told by what is beside them; nullptr: nothing.
+/// Returns which atoms of the surface the figure shows. marked: atoms on which that may depend; nullptr: the frame's.
 std::vector<bool> ShownMolecule::part_shown(const PreviewFigure& figure, const Structure* marked) const {
   if (!figure.molecule.show) return std::vector<bool>(atoms().size(), true);
   std::vector<bool> shown = figure.molecule.show->evaluate(marked ? shown_atoms(*marked) : frame_structure().atoms);
@@ -245,7 +245,7 @@ void ShownMolecule::lay_out_legend(const PreviewState& state) {
   try {
     legend_ = std::make_shared<const LegendStrip>(
         colors, state.size, legend_style(state.legend.style, state.annotations.letters), state.shown_background());
-  } catch (const RequestError& error) {  // no room for it in this size
+  } catch (const RequestError& error) {  // the size has no room for the legend
     legend_fault_ = error.what();
   }
 }
@@ -263,7 +263,7 @@ std::vector<bool> ShownMolecule::patch_marks(const PreviewFigure& figure) const 
   if (!figure.molecule.patches) return {};
   std::vector<bool> marks = figure.molecule.patches->evaluate(annotated_structure());
   if (figure.molecule.least_patch <= 0.0 || std::ranges::find(marks, true) == marks.end()) return marks;
-  std::vector<AtomGroup> groups(1);  // that have a surface each: all, or what is copied together
+  std::vector<AtomGroup> groups(1);  // groups that have a surface each: all atoms, or the atoms of each group of copies
   for (std::uint32_t a = 0; a < balls_.size(); ++a) groups[0].atoms.push_back(a);
   if (!structure_.instances.empty()) groups.clear();
   for (const Instances& group : structure_.instances) groups.push_back({{}, group.atoms});

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws missing pictures, while exposed areas are computed on a thread, and computes surfaces on the CPU for pages,
-// coloured as the preview does.
+// Draws missing pictures, computes exposed areas on a thread, and computes coloured surfaces on the CPU for pages.
 #include "app/preview/view_cache.h"
 
 #include "core/base/error.h"
@@ -34,7 +33,7 @@ std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t ato
     try {
       keep();
     } catch (const Error&) {
-      if (pending_key_ == key) throw;  // else nobody asks for this surface any more
+      if (pending_key_ == key) throw;  // the error of another surface is no longer of interest
     }
   }
   if (!known_.contains(key) && !pending_.valid()) {
@@ -67,7 +66,7 @@ void ViewCache::take(const PreviewState& state, const ShownMolecule& molecule, R
 
 namespace {
 
-/// Each ball in its colour, the darker the more it turns away; rows from the top.
+/// Returns a picture of the balls in their colours, darker where they turn away from the viewer; rows from the top.
 std::vector<std::uint8_t> draw_balls(std::span<const Ball> balls, const Coloring& coloring, const Camera& camera,
                                      glm::ivec2 size, const glm::vec3& background) {
   const std::size_t pixels = static_cast<std::size_t>(size.x) * size.y;
@@ -117,7 +116,7 @@ Look without_effects(Look look) {
 }  // namespace
 
 bool ViewCache::wants_balls(const PreviewState& state, const ShownMolecule& molecule) const {
-  constexpr std::size_t kMany = 20'000;  // atoms whose surface takes more than half a second
+  constexpr std::size_t kMany = 20'000;  // the surface of so many atoms takes more than half a second
   return !has_surface_ && renderer_->draws_on_cpu() && !state.figure.hides_surface && molecule.balls().size() > kMany &&
          molecule.structure().instances.empty();
 }
@@ -172,7 +171,7 @@ std::optional<double> ViewCache::exposed_area(const PreviewState& state, const S
     return areas_.of({state.frame, 0, state.molecule.surface.kind, state.molecule.surface.probe_radius,
                       molecule.balls(), renderer_->surface()},
                      atom, wait, wanted);
-  // Copies of a group are as if it were alone.
+  // An atom of a copy has the area that it has in its group alone.
   std::size_t group = 0;
   while (!std::ranges::binary_search(copies[group].atoms, atom)) ++group;
   const std::vector<std::uint32_t>& atoms = copies[group].atoms;
@@ -187,8 +186,8 @@ std::optional<double> ViewCache::exposed_area(const PreviewState& state, const S
 
 namespace {
 
-/// Returns the share of the molecule's depth that planes across the view take away, by the numbers of these planes: the
-/// page keeps them there when it is turned.
+/// Returns the share of the molecule's depth that each plane across the view takes away, by the planes' indices; the
+/// page keeps these shares when the view turns.
 nlohmann::json depths_of(const FigureRequest& figure) {
   nlohmann::json depths = nlohmann::json::object();
   for (std::size_t n = 0; n < figure.cuts.size() && !figure.hides_surface; ++n) {
@@ -199,12 +198,12 @@ nlohmann::json depths_of(const FigureRequest& figure) {
   return depths;
 }
 
-/// Ends the computation of a surface that is given up.
+/// An exception that ends the computation of a surface that is given up.
 struct GivenUp {};
 
 }  // namespace
 
-/// Returns false if the surface was given up.
+/// Computes the surface; returns false if it was given up.
 bool FigureTables::compute(const PreviewState& state, const ShownMolecule& molecule,
                            const std::function<bool()>& stop) {
   const double probe = state.rolling_radius();
@@ -233,7 +232,7 @@ bool FigureTables::compute(const PreviewState& state, const ShownMolecule& molec
 
 void FigureTables::color(const Structure& structure, const PreviewState& state, const ShownMolecule& molecule) {
   Coloring& coloring = object_.coloring = molecule.coloring(state);
-  // The part numbers of a page begin with 0 in each frame. The molecule numbers the parts of all models in one row.
+  // The molecule numbers the parts of all models in one series; a page numbers them from 0 in each frame.
   const std::uint32_t first_part = coloring.part.empty() ? 0 : *std::ranges::min_element(coloring.part);
   for (std::uint32_t& part : coloring.part) part -= first_part;
   const MoleculeRequest& request = state.molecule;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exports a view on a thread of its own, which reports its progress and can be cancelled.
+// Exports a view on a separate thread, which reports its progress and can be cancelled.
 #include "app/preview/view_export.h"
 
 #include <new>
@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-/// Ends an export that nobody wants any more.
+/// An exception that ends an export that was cancelled.
 struct ExportCancelled {};
 
 }  // namespace
@@ -25,7 +25,7 @@ struct ExportJob::Shared {
   using Clock = std::chrono::steady_clock;
 
   const std::string path;
-  std::mutex mutex{};  // guards all below
+  std::mutex mutex{};  // guards all members below
   std::condition_variable ended_now{};
   bool cancelled = false, ended = false;
   std::string stage{"begin"};
@@ -119,7 +119,7 @@ nlohmann::json ExportJob::state() {
 
 namespace {
 
-/// The complete surface, of copies one for each group of atoms that are together, and what computed it.
+/// Returns the complete surfaces, one for each group of copied atoms, and the name of the device that computed them.
 std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const ExportedView& view,
                                                                      const ExportWatch& watch) {
   SurfaceRequest request;
@@ -156,7 +156,7 @@ std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const Expor
 void export_picture(const ExportedView& view, const MakePictureDevice& make_device, const ExportTarget& target,
                     const ExportWatch& watch) {
   check_image_path(target.path);
-  check_output(target.path, target.existing);  // known to be possible before the work begins
+  check_output(target.path, target.existing);  // before the work begins, so that it is not done in vain
   const PreviewFigure& figure = view.figure;
   std::optional<glm::vec3> background = figure.shown_background();
   if (view.transparent) background.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What children of every system have in common: lines, bytes and the words for their ends.
+// The common part of children on every system: lines, bytes and the texts about their ends.
 #include "app/process/child_process.h"
 
 #include <array>
@@ -14,7 +14,7 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kLongestLine = 1 << 16;
-constexpr int kKilled = kSignalCode + 9;  // by SIGKILL
+constexpr int kKilled = kSignalCode + 9;  // the code of a child that SIGKILL ended
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Child processes, which are started without a shell and end with this program: one is read line by line, one is fed;
-// and the browser, which goes on. child_process_posix.cpp (Linux, macOS) and child_process_windows.cpp start and end
-// them.
+// Child processes, which are started without a shell and end with this program: one is read line by line, one gets
+// bytes; and the browser, which outlives it. child_process_posix.cpp (Linux, macOS) and child_process_windows.cpp start
+// and end them.
 #pragma once
 
 #include <chrono>
@@ -18,21 +18,20 @@
 namespace meniscus {
 
 /// A child process. One thread makes and uses it and outlives it, since Linux ends a child when the *thread* that
-/// started it ends; even kill -9 of this process leaves no child behind there, nor on Windows.
+/// started it ends; on Linux and Windows even kill -9 of this process leaves no child.
 class ChildProcess {
  public:
-  /// arguments[0] is the program, looked for in the absolute folders of PATH unless it has a slash; it runs in
-  /// `folder`, with an empty standard input and no signal blocked. Throws InputError if it cannot be started.
+  /// Starts arguments[0], which is searched in the absolute folders of PATH unless it has a slash; it runs in `folder`,
+  /// with an empty standard input and no signal blocked. Throws InputError if it cannot be started.
   ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Returns the next line that the child writes, to standard output or error; nothing at their end. A line without end
-  /// comes in pieces of 64 KiB.
+  /// Returns the next line of the child's output or error; nothing at their end. Lines are cut every 64 KiB.
   std::optional<std::string> next_line();
 
-  /// True if the child wrote something, or ended, within this time.
+  /// Returns true if the child wrote something, or ended, within this time.
   bool has_news(std::chrono::milliseconds patience) const;
 
   /// Sends SIGTERM to the child; on Windows it ends at once.
@@ -50,8 +49,8 @@ class ChildProcess {
 /// A child process that this program feeds with bytes, such as ffmpeg with pictures.
 class FedProcess {
  public:
-  /// words[0] is the program, looked for in PATH; its standard output is discarded. Throws Error, "cannot be started:
-  /// No such file or directory", without the program's name.
+  /// Starts words[0], which is searched in PATH; its standard output is discarded. Throws Error, "cannot be started: No
+  /// such file or directory", without the program's name.
   explicit FedProcess(std::vector<std::string> words);
   ~FedProcess();
   FedProcess(const FedProcess&) = delete;
@@ -59,14 +58,13 @@ class FedProcess {
 
   /// Writes bytes to the child's standard input. Returns false if the child no longer reads.
   bool feed(std::span<const std::uint8_t> bytes);
-  /// Closes the child's standard input and waits for its end. Returns its exit code as ChildProcess::wait() does; more
-  /// calls return the same.
+  /// Closes the child's standard input, waits for its end, and returns its exit code; more calls return the same.
   int finish();
   /// Returns the first 2,000 bytes that the child wrote to its standard error.
   std::string complaints() const;
 
  private:
-  /// Kills the child, and returns when it has ended: it writes nothing from then on.
+  /// Kills the child, and returns when it has ended, so that it writes nothing later.
   void kill() const;
 
   std::intptr_t pid_ = -1;
@@ -76,26 +74,25 @@ class FedProcess {
   StopHandler stop_{[this] { kill(); }, std::nullopt};
 };
 
-/// Runs a program that may outlive this one, such as a browser, and waits for its end. It has a session of its own,
-/// where neither Ctrl-C nor the end of this program reaches it, and an empty standard input. Its output is discarded.
-/// arguments: as for ChildProcess. Returns what ChildProcess::wait() returns, or kNotStarted.
+/// Runs a program that may outlive this one, such as a browser, and waits for its end. It has its own session, where
+/// neither Ctrl-C nor the end of this program reaches it, and an empty standard input. Its output is discarded.
+/// arguments: see ChildProcess. Returns the code of ChildProcess::wait(), or kNotStarted.
 int run_apart(const std::vector<std::string>& arguments);
 constexpr int kNotStarted = 127;
 
-/// If a code of wait() is above this one, a signal ended the child.
+/// A code of wait() above this one means that a signal ended the child.
 constexpr int kSignalCode = 128;
 
-/// Returns the most memory, in bytes, that one of the children which have ended used; 0 where that is unknown.
+/// Returns the largest memory, in bytes, of a child that has ended; 0 if it is unknown.
 std::uint64_t memory_of_largest_child();
 
-/// Returns the words for such a code, "the process that made it was killed, as when memory runs out", and this
-/// program's own exit code for it: kExitCapacity for SIGKILL, else kExitInternal.
+/// Returns a text about such a code, "the process that made it was killed, as when memory runs out"; the next function
+/// returns this program's own exit code for it: kExitCapacity for SIGKILL, else kExitInternal.
 std::string signal_text(int code);
 int signal_exit_code(int code);
 
-/// Ends all children, at once with SIGTERM and after two seconds with SIGKILL, and lets none be started from then on.
-/// On Windows they end at once.
-/// The thread that ends the program calls it; the main thread may be anywhere.
+/// Ends all children, at once with SIGTERM and after two seconds with SIGKILL (on Windows at once), and prevents that
+/// others are started. The thread that ends the program calls it; the main thread may be anywhere.
 void stop_children();
 
 /// While a StopBarrier lives, stop_children() waits; once stop_children() has begun, the constructor never returns. The
@@ -109,9 +106,9 @@ class StopBarrier {
   StopBarrier& operator=(const StopBarrier&) = delete;
 };
 
-/// Has the address opened by the program that BROWSER names (not on Windows), or else by the one that the desktop has
-/// for it, without a shell. The browser goes on when this program ends. If none can be opened, `failed` is called with
-/// the reason, such as "there is no display": on this thread or, later, on another one.
+/// Opens the address by the program that BROWSER names (not on Windows), or else by the desktop's program for it,
+/// without a shell. The browser outlives this program. If none can be opened, `failed` is called with the reason, such
+/// as "there is no display": on this thread or, later, on another one.
 void open_in_browser(const std::string& address, std::function<void(const std::string& reason)> failed);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Implements child_process.h for Linux and macOS, with care for signals, descriptors and orphans.
+// Implements child_process.h for Linux and macOS: handles signals, descriptors and orphans.
 #include "app/process/child_process.h"
 
 #include <algorithm>
@@ -38,19 +38,19 @@ Registry& registry() {
   return instance;
 }
 
-/// Never returns once the program is about to end: a child that was stopped has not failed, and its work is not to be
-/// judged. The caller holds the lock.
+/// Never returns once the program is about to end: a child that was stopped has not failed, and its result does not
+/// count. The caller holds the lock.
 void stay_if_stopping() {
   while (registry().closed) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-/// Runs between fork and exec. All its calls are safe there, since other threads may hold any lock.
+/// Runs between fork and exec. All its calls are safe there, where other threads may hold any lock.
 [[noreturn]] void become(const char* program, char* const* argv, char* const* environment, const char* folder,
                          int output, int report, pid_t parent) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  std::signal(SIGXFSZ, SIG_DFL);  // a write beyond the limit is an error in this program; other programs may not check
+  std::signal(SIGXFSZ, SIG_DFL);  // other programs may not check for a write beyond the limit
   system_process::end_with_parent();
   const int nothing = ::open("/dev/null", O_RDONLY);
   // The parent may have died before the request above.
@@ -62,8 +62,7 @@ void stay_if_stopping() {
   ::_exit(127);
 }
 
-/// Returns the program's path. Only absolute folders of PATH count, because anybody may have made the folder that a
-/// child runs in.
+/// Returns the program's path. Only absolute folders of PATH count: any user may have made the child's folder.
 std::string program_path(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   const char* const path = std::getenv("PATH");
@@ -73,10 +72,10 @@ std::string program_path(const std::string& name) {
     const std::string candidate = fmt::format("{}/{}", folder, name);
     if (folder.starts_with('/') && ::access(candidate.c_str(), X_OK) == 0) return candidate;
   }
-  return fmt::format("/{}", name);  // starting it reports that it is not there
+  return fmt::format("/{}", name);  // starting it reports that it does not exist
 }
 
-/// Returns the words for an exec function, which do not change them.
+/// Returns the words as pointers for an exec function, which does not change them.
 std::vector<char*> pointers_to(const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -84,7 +83,7 @@ std::vector<char*> pointers_to(const std::vector<std::string>& arguments) {
   return argv;
 }
 
-/// Waits until the process has ended. Its number is not given to another process yet.
+/// Waits until the process has ended. Its number is not yet free for another process.
 void await_end(pid_t process) {
   siginfo_t ended{};
   uninterrupted([&] { return ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT); });
@@ -117,7 +116,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   const std::string program = program_path(arguments[0]);
   Pipe output, report;
   {
-    // A stop waits for the start to be whole, so that no child escapes it; afterwards there is none.
+    // A stop waits until the child is registered, so that no child escapes it; no child is started afterwards.
     const std::lock_guard lock(registry().mutex);
     stay_if_stopping();
     registry().running.reserve(registry().running.size() +
@@ -161,7 +160,7 @@ int ChildProcess::wait() {
   await_end(static_cast<pid_t>(pid_));
   int status = 0;
   {
-    // Its number is given back under the lock, lest a stop kills another process that got it meanwhile.
+    // Its number becomes free under the lock, so that a stop cannot kill another process that gets the number.
     const std::lock_guard lock(registry().mutex);
     ::waitpid(static_cast<pid_t>(pid_), &status, 0);
     std::erase(registry().running, std::exchange(pid_, -1));
@@ -205,7 +204,7 @@ int FedProcess::finish() {
   if (input_ >= 0) ::close(std::exchange(input_, -1));
   if (pid_ < 0) return code_;
   await_end(static_cast<pid_t>(pid_));
-  // The number is given back under the lock, so that a stop cannot kill another process that got it meanwhile.
+  // Its number becomes free under the lock, so that a stop cannot kill another process that gets the number.
   const auto held = hold_stops();
   int status = 0;
   ::waitpid(static_cast<pid_t>(pid_), &status, 0);
@@ -239,7 +238,7 @@ int run_apart(const std::vector<std::string>& arguments) {
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  sigset_t none, changed;  // the signals that are blocked for it, and those that this program ignores
+  sigset_t none, changed;  // the signals that the child blocks, and those that this program ignores
   sigemptyset(&none);
   sigemptyset(&changed);
   sigaddset(&changed, SIGPIPE);
@@ -305,8 +304,7 @@ bool has_display() { return !variable("DISPLAY").empty() || !variable("WAYLAND_D
 }  // namespace
 
 void open_in_browser(const std::string& address, std::function<void(const std::string& reason)> failed) {
-  // Editors on another machine name a program that needs no display here. A list of names, and names with arguments,
-  // are for xdg-open.
+  // Remote editors name a program that needs no display. Lists, and names with arguments, are for xdg-open.
   std::string opener = variable("BROWSER");
   if (opener.empty() || opener.find_first_of(" :%") != std::string::npos) {
     if (!has_display()) return failed("there is no display");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Implements child_process.h for Windows. A job of the system holds all children, and ends them with this program.
+// Implements child_process.h for Windows. A job object holds all children, and ends them with this program.
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -21,9 +21,9 @@
 namespace meniscus {
 namespace {
 
-constexpr UINT kCodeOfStop = kSignalCode + 15, kCodeOfKill = kSignalCode + 9;  // as by SIGTERM and SIGKILL
+constexpr UINT kCodeOfStop = kSignalCode + 15, kCodeOfKill = kSignalCode + 9;  // the codes for SIGTERM and SIGKILL
 
-/// Held while a child is started and while files are written, and from the beginning of the program's end on.
+/// Returns the mutex that is held while a child is started, while files are written, and when the program ends.
 std::mutex& starting() {
   static std::mutex instance;
   return instance;
@@ -138,7 +138,7 @@ void ChildProcess::stop() const { ::TerminateProcess(handle_of(pid_), kCodeOfSto
 int ChildProcess::wait() {
   const int code = code_of_ended(pid_);
   ::CloseHandle(handle_of(std::exchange(pid_, -1)));
-  const std::lock_guard lock(starting());  // never given again once the program is about to end
+  const std::lock_guard lock(starting());  // this lock is never free again once the program is about to end
   return code;
 }
 

@@ -18,14 +18,14 @@
 namespace meniscus {
 namespace {
 
-/// The number in a file of a control group; unlimited if there is no such file, or "max" in it.
+/// Returns the number in a file of a control group; unlimited if there is no such file, or if it contains "max".
 std::uint64_t read_limit(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::uint64_t bytes = 0;
   return in >> bytes ? bytes : UINT64_MAX;
 }
 
-/// The smallest limit of a group and of those it lies in.
+/// Returns the smallest limit of a group and of the groups around it.
 std::uint64_t limit_of_group(const std::filesystem::path& root, std::filesystem::path group, const char* file) {
   std::uint64_t limit = UINT64_MAX;
   for (group = group.relative_path(); !group.empty(); group = group.parent_path())
@@ -41,7 +41,7 @@ std::uint64_t memory_limit(std::istream& groups, const std::filesystem::path& mo
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos) continue;
     const std::string controllers = line.substr(first + 1, second - first - 1), group = line.substr(second + 1);
-    // Version 2 has one tree, which names no controllers; version 1 has one for each.
+    // Version 2 has one tree, which names no controllers; version 1 has one tree for each controller.
     if (controllers.empty()) limit = std::min(limit, limit_of_group(mounted, group, "memory.max"));
     if (controllers == "memory")
       limit = std::min(limit, limit_of_group(mounted / "memory", group, "memory.limit_in_bytes"));

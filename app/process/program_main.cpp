@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the first and the last steps of a program in their order; errors become one line and an exit code.
+// Runs the first and the last steps of a program in order, and turns errors into one line and an exit code.
 #include "app/process/program_main.h"
 
 #include <atomic>
@@ -22,8 +22,7 @@ bool is(const std::exception& error) {
   return dynamic_cast<const Kind*>(&error) != nullptr;
 }
 
-/// Returns the code for something that the system refused: memory or another thread, or to make, rename or remove a
-/// folder.
+/// Returns the code for a request that the system refused: memory, another thread, or a change of a folder.
 ExitCode code_of_system(const std::system_error& error) {
   if (error.code() == std::errc::not_enough_memory || error.code() == std::errc::resource_unavailable_try_again)
     return kExitCapacity;
@@ -41,7 +40,7 @@ ExitCode exit_code_of(const std::exception& error) {
   if (is<OutputError>(error)) return kExitOutput;
   if (is<OpenSurfaceError>(error)) return kExitNotClosed;
   if (std::string_view(error.what()).starts_with("pthread_create"))
-    return kExitCapacity;  // oneTBB reports it in these words
+    return kExitCapacity;  // these are the words of oneTBB
   if (const auto* system = dynamic_cast<const std::system_error*>(&error)) return code_of_system(*system);
   return kExitInternal;
 }
@@ -75,9 +74,8 @@ void stop(int signal) {
   system_process::end(exit_code.value_or(128 + signal));
 }
 
-/// From this call on, SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before the program ends, as the
-/// signal would have ended it. SIGXFSZ is ignored, so that a file too large is an OutputError. Call it once, before
-/// other threads are started.
+/// Makes SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before they end the program. SIGXFSZ is ignored,
+/// so that a file too large is an OutputError. Must be called once, before other threads are started.
 void clean_up_on_signals() { system_process::await_stop(stop); }
 
 namespace fs = std::filesystem;
@@ -126,7 +124,7 @@ ExitCode print_error(ExitCode code, const std::string& message) {
   return code;
 }
 
-/// Prints an error of a selection, with the lines that show its place.
+/// Prints an error of a selection, with lines that show its position.
 ExitCode print_error(const SelectionError& error) {
   std::istringstream picture(error.picture());
   std::string lines = escaped(error.sentence());
@@ -157,7 +155,7 @@ ExitCode report_with_memory() {
   }
 }
 
-/// Needs no memory at all.
+/// Reports the lack of memory without using any.
 ExitCode report_without_memory() noexcept {
   system_process::write_error(
       "meniscus: error: not enough memory; use a machine with more, a smaller molecule or picture, or fewer "
@@ -165,15 +163,14 @@ ExitCode report_without_memory() noexcept {
   return kExitCapacity;
 }
 
-/// Reports an exception that escapes a noexcept function. Such an exception is not a current one, so its message is not
-/// available.
+/// Reports an exception that escapes a noexcept function; it is not current, so its message is not available.
 ExitCode report_unnamed_error() noexcept {
   if (memory_ran_out()) return report_without_memory();
   system_process::write_error("meniscus: error: internal: unexpected exception; please report this\n");
   return kExitInternal;
 }
 
-/// Reports the exception that is being handled, or the lack of memory if there is none left to report it with.
+/// Reports the exception that is being handled, or the lack of memory if none is left to report it.
 ExitCode report_current_error() noexcept {
   try {
     return report_with_memory();
@@ -184,8 +181,8 @@ ExitCode report_current_error() noexcept {
   }
 }
 
-/// Ends the program by an exception that was not caught: a thread of a library may run out of memory outside of all our
-/// try blocks. Unfinished files are removed.
+/// Ends the program because of an uncaught exception, for instance in a thread of a library that ran out of memory.
+/// Unfinished files are removed.
 [[noreturn]] void end_by_uncaught_error() {
   static std::atomic_flag ending;
   while (ending.test_and_set()) system_file::wait_a_millisecond();  // another thread reports it already
@@ -218,8 +215,8 @@ int program_main(const char* name, const std::function<ExitCode()>& work) {
   } catch (...) {
     code = report_current_error();
   }
-  // Destructors of libraries cannot be relied on if there is no memory: a thread of OpenBLAS that gets none tries again
-  // for ever, and its destructor waits for it.
+  // Destructors of libraries are not reliable without memory: a thread of OpenBLAS that gets none tries again forever,
+  // and its destructor waits for it.
   if (memory_is_limited() || code == kExitCapacity) {
     std::cout.flush();
     system_process::end(code);

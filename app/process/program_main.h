@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The frame of each of our programs: its exit codes, first and last steps, signals that stop it, version and command
-// line, and its memory: how much it may use, and what happens when it runs out.
+// The common part of our programs: exit codes, first and last steps, signals that stop them, version and command line,
+// and memory: how much they may use, and what happens when it runs out.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ enum ExitCode : int {
   kExitCapacity = 5,
   kExitOutput = 6,
   kExitNotClosed = 7,
-  kExitIncomplete = 8,  ///< a run of frames is done, but its trajectory ends in mid-frame
+  kExitIncomplete = 8,  ///< a run of frames is done, but its trajectory ends within a frame
   kExitStopped = 9,     ///< a worker was stopped; the same command continues where it stopped
 };
 
@@ -52,7 +52,7 @@ class UsageError : public RequestError {
 };
 
 /// While a StopHandler lives, these signals call its `stop` first, on a separate thread, and the program ends with its
-/// `exit_code`, if that is given. Younger handlers are called first, and the exit code of the youngest counts.
+/// `exit_code`, if that is given. Later handlers are called first, and the exit code of the latest counts.
 class StopHandler {
  public:
   StopHandler(std::function<void()> stop, std::optional<int> exit_code);
@@ -61,40 +61,39 @@ class StopHandler {
   StopHandler& operator=(const StopHandler&) = delete;
 };
 
-/// Returns a lock. While it is held no handler is called, so that the data of a handler changes as a whole. After a
-/// signal the lock is never given again.
+/// Returns a lock. No handler is called while it is held, so that a handler's data changes in one step. After a signal
+/// the lock is never free again.
 std::unique_lock<std::mutex> hold_stops();
 
-/// Returns "0.1.0+g2b6bb4a4c1d2", the version and the commit; "....dirty.5f0c..." and a checksum if files differ from
-/// it; "0.1.0+s77b1..." and a checksum of all sources where no repository tells. Programs with the same text are made
-/// of the same sources.
+/// Returns "0.1.0+g2b6bb4a4c1d2", the version and the commit; "....dirty.5f0c..." with a checksum if files differ from
+/// it; "0.1.0+s77b1..." with a checksum of all sources if there is no repository. Programs with the same text are made
+/// from the same sources.
 const char* build_version();
 
 /// Returns "2026-11-22", the day of the commit; without a repository, when CHANGELOG.md was last changed.
 const char* build_date();
 
-/// Returns the folder of the Blender add-on and of its driver, render_mns.py: share/meniscus/addon next to bin/, or
-/// within the folder where the program was built. If neither is there, it returns the first.
+/// Returns the folder of the Blender add-on and of its driver, render_mns.py: share/meniscus/addon next to bin/, or in
+/// the folder where the program was built. If neither exists, it returns the first.
 std::filesystem::path addon_folder();
 
-/// Keeps the words for command_line(). Call it once, before any other thread begins.
+/// Keeps the words for command_line(). Must be called once, before any other thread begins.
 void remember_command_line(std::span<const char* const> words);
 
-/// Returns the command line as a shell takes it, "meniscus 'render' '1tii.pdb' '-o' 'my picture.png'", the program
-/// without its folder, control characters as \xNN. Empty if nothing was remembered.
+/// Returns the command line in the syntax of a shell, "meniscus 'render' '1tii.pdb' '-o' 'my picture.png'", with the
+/// program's name without its folder, and control characters as \xNN; empty if no words were kept.
 std::string command_line();
 
-/// Throws OutputError unless all that was printed has been taken. (Lines on standard error are no result: the program
+/// Throws OutputError unless all printed text has been written. (Lines on standard error are not a result: the program
 /// continues if they cannot be written.)
 void finish_standard_output();
 
-/// Does the work of main() with memory, streams and signals prepared for errors, and returns its exit code. If an
-/// exception leaves the work, its line on standard error begins with `name`, and the exit code is that of the
-/// exception. The text of `name` must live as long as the program.
+/// Does the work of main() with memory, streams and signals prepared for errors, and returns its exit code. If the work
+/// throws, a line on standard error begins with `name`, and the exit code is that of the exception. The text of `name`
+/// must live as long as the program.
 int program_main(const char* name, const std::function<ExitCode()>& work);
 
-/// Returns the memory of the machine in bytes, or less where a control group of a batch system or container allows
-/// less.
+/// Returns the memory of the machine in bytes, or less if a control group of a container or the like allows less.
 std::uint64_t memory_size();
 
 /// Returns the smallest limit, in bytes, of control groups and of the groups around them; UINT64_MAX if there is no
@@ -102,25 +101,23 @@ std::uint64_t memory_size();
 /// the given folder.
 std::uint64_t memory_limit(std::istream& groups, const std::filesystem::path& mounted);
 
-/// Says that all libraries are loaded. Libraries do not survive a limit of memory or threads: some crash while they are
-/// loaded, others wait for ever for a thread that could not be started. Under such a limit, and only then, either ends
-/// in a line on standard error and exit code 5; the wait is watched until this call at the beginning of main().
+/// Notes that all libraries are loaded. Libraries do not survive a limit of memory or threads: some crash while they
+/// are loaded, others wait forever for a thread that could not be started. Under such a limit, and only then, either
+/// ends in a line on standard error and exit code 5; the wait is watched until this call at the beginning of main().
 void libraries_are_loaded();
 
-/// True if there is such a limit.
+/// Returns true if there is such a limit.
 bool memory_is_limited();
 
-/// From this call on, a `new` that gets no memory is remembered; it throws std::bad_alloc as ever. Call it at the
-/// beginning of main().
+/// Remembers from now on if a `new` gets no memory; it still throws. Must be called at the beginning of main().
 void remember_failed_allocations();
 
-/// True if a `new` got no memory since then. Requests of C libraries are not counted.
+/// Returns true if a `new` got no memory since then. Requests of C libraries are not counted.
 bool memory_ran_out() noexcept;
 
-/// After this call freed memory stays with the process, and tables of less than 32 MiB are taken from it. Larger tables
-/// go back to the system at once, so that the memory at the peak grows by a few per cent only. New memory costs a page
-/// fault for each 4 KiB, a tenth of the time of a small surface. The call has no effect with C libraries that lack such
-/// a setting.
+/// Keeps freed memory in the process, and takes tables of less than 32 MiB from it. Larger tables go back to the system
+/// at once, so that the peak of memory grows by a few per cent only. New memory costs a page fault for each 4 KiB, a
+/// tenth of the time of a small surface. Does nothing with C libraries that lack such a setting.
 void keep_freed_memory();
 
 }  // namespace meniscus

@@ -30,7 +30,7 @@ std::span<const char* const> words(int argc, char** argv) { return {argv, static
 void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
-    // The lowest free number is taken, and those below are in use. If even /dev/null is missing, so be it.
+    // The lowest free number is taken, and lower ones are in use. Nothing can be done if even /dev/null is missing.
     [[maybe_unused]] const int taken = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
 }
@@ -57,7 +57,7 @@ namespace {
 
 constexpr unsigned kSecondsToLoad = 60;
 
-/// All its calls are such that a signal handler may make them.
+/// Ends the program with an error. A signal handler may make all its calls.
 [[noreturn]] void give_up() {
   write_error(
       "meniscus: error: not enough memory under the limit on address space; raise it (ulimit -v), or use fewer "
@@ -69,7 +69,7 @@ void handle(int) { give_up(); }
 
 void watch() {
   if (!memory_is_limited()) return;
-  static std::array<char, 1 << 16> stack;  // the other one may be what could not grow
+  static std::array<char, 1 << 16> stack;  // the usual stack may be the one that could not grow
   stack_t alternative{};
   alternative.ss_sp = stack.data();
   alternative.ss_size = stack.size();
@@ -95,9 +95,9 @@ namespace {
 
 std::atomic<int> first_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
-std::array<int, 2> signal_pipe{-1, -1};  // a pipe: macOS has no semaphores without names
+std::array<int, 2> signal_pipe{-1, -1};  // macOS has no unnamed semaphores, so this is a pipe
 
-/// All its calls are such that a signal handler may make them.
+/// Notes a signal. A signal handler may make all its calls.
 void note_signal(int signal) {
   const int before = errno;
   int none = 0;

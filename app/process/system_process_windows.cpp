@@ -25,12 +25,12 @@ std::string in_utf8(const wchar_t* text) {
   const int size = ::WideCharToMultiByte(CP_UTF8, 0, text, -1, nullptr, 0, nullptr, nullptr);
   std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 1, '\0');
   ::WideCharToMultiByte(CP_UTF8, 0, text, -1, bytes.data(), size, nullptr, nullptr);
-  bytes.pop_back();  // the zero at its end
+  bytes.pop_back();  // removes the final zero
   return bytes;
 }
 
-/// Returns the words of the command line as they were typed. The arguments of main() are in the code page of the
-/// machine, and the C library has replaced arguments with wildcards by names of files.
+/// Returns the words of the command line as they were typed. The arguments of main() are in the machine's code page,
+/// and the C library has replaced arguments with wildcards by names of files.
 std::vector<std::string> given_words() {
   int count = 0;
   const std::unique_ptr<wchar_t*, decltype(&::LocalFree)> wide(::CommandLineToArgvW(::GetCommandLineW(), &count),
@@ -52,7 +52,7 @@ std::span<const char* const> words(int, char**) {
   return pointers;
 }
 
-// A closed stream keeps its number here. Texts are UTF-8 wherever they go, and lines end as elsewhere.
+// A closed stream keeps its number on Windows. Texts are UTF-8 everywhere, and lines end as on other systems.
 void hold_standard_streams() {
   ::SetConsoleOutputCP(CP_UTF8);
   for (std::FILE* stream : {stdout, stderr}) ::_setmode(::_fileno(stream), _O_BINARY);
@@ -61,7 +61,7 @@ void hold_standard_streams() {
 bool is_terminal(std::FILE* stream) {
   DWORD mode = 0;
   const auto terminal = reinterpret_cast<HANDLE>(::_get_osfhandle(::_fileno(stream)));
-  // Terminals take the signs of a progress bar once this mode is set.
+  // Terminals show the characters of a progress bar only in this mode.
   return ::GetConsoleMode(terminal, &mode) && ::SetConsoleMode(terminal, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
 }
 
@@ -72,7 +72,7 @@ void write_error(std::string_view line) noexcept {
 
 void end(int code) noexcept { ::_exit(code); }
 
-// There is no limit on address space.
+// Windows has no limit on address space.
 bool memory_is_limited() { return false; }
 void libraries_are_loaded() {}
 
@@ -87,9 +87,9 @@ namespace {
 void (*when_stopped)(int signal) = nullptr;
 std::atomic_flag is_stopped;
 
-/// On a thread that the system starts for it.
+/// Handles an event; the system calls it on a separate thread.
 BOOL WINAPI take_event(DWORD event) {
-  constexpr int kHangUp = 1;  // SIGHUP of others
+  constexpr int kHangUp = 1;  // SIGHUP on other systems
   const int signal = event == CTRL_C_EVENT ? SIGINT : event == CTRL_BREAK_EVENT ? SIGTERM : kHangUp;
   if (!is_stopped.test_and_set()) when_stopped(signal);
   return TRUE;
@@ -103,7 +103,7 @@ void await_stop(void (*stopped)(int signal)) {
     throw CapacityError("the system cannot report Ctrl-C: error " + std::to_string(::GetLastError()));
 }
 
-void outlive_readers() {}  // there is no such signal
+void outlive_readers() {}  // Windows has no such signal
 
 ProcessorTime processor_time() {
   const auto seconds = [](const FILETIME& time) {
@@ -124,7 +124,7 @@ std::string host() {
 std::string system_name() {
   OSVERSIONINFOW version{};
   version.dwOSVersionInfoSize = sizeof version;
-  // GetVersionEx() tells programs of an older version.
+  // GetVersionEx() reports an older version to programs.
   using Ask = LONG(WINAPI*)(OSVERSIONINFOW*);
   const auto address = reinterpret_cast<void*>(::GetProcAddress(::GetModuleHandleW(L"ntdll"), "RtlGetVersion"));
   if (address) reinterpret_cast<Ask>(address)(&version);
@@ -141,7 +141,7 @@ bool make_pipe(std::array<int, 2>& ends) {
   return ::_pipe(ends.data(), kSize, _O_BINARY | _O_NOINHERIT) == 0;
 }
 
-// This is a pipe: a write without a reader is an error here, not a signal.
+// Makes a pipe: on Windows a write without a reader is an error, not a signal.
 bool make_connection(std::array<int, 2>& ends) {
   if (!make_pipe(ends)) return false;
   std::swap(ends[0], ends[1]);

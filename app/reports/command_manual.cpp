@@ -45,7 +45,7 @@ std::string heading(std::string_view name, std::string_view section, std::string
                      margins.date, plain(margins.version), plain(name), plain(summary));
 }
 
-/// Returns \fB\-o\fR, \fB\-\-output\fR \fIPATH\fR.
+/// Returns the term of an option, such as \fB\-o\fR, \fB\-\-output\fR \fIPATH\fR.
 std::string term(const OptionEntry& option, bool argument) {
   std::string text;
   for (const std::string& name : option.names)
@@ -148,7 +148,7 @@ std::string fish_quoted(const std::string& text) {
   return "'" + replaced(replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
 }
 
-/// Returns "meniscus/export/povray".
+/// Returns a command's path with slashes: "meniscus/export/povray".
 std::string slashed(const CommandEntry& command) { return replaced(command.path, " ", "/"); }
 
 std::vector<OptionEntry> options_of(const CommandEntry& command) {
@@ -158,7 +158,7 @@ std::vector<OptionEntry> options_of(const CommandEntry& command) {
   return all;
 }
 
-/// Returns the patterns with which a case statement goes one command down: "meniscus/export|meniscus/export/ply".
+/// Returns the patterns by which a case statement goes one command down: "meniscus/export|meniscus/export/ply".
 std::vector<std::string> commands_below(const CommandEntry& program) {
   std::vector<std::string> all;
   for (const CommandEntry* command : all_commands(program))
@@ -190,7 +190,7 @@ std::string bash_values(const CommandEntry& command) {
   return lines;
 }
 
-/// Returns the candidates where no value is expected.
+/// Returns the candidates if no value is expected.
 std::string bash_words(const CommandEntry& command) {
   std::vector<std::string> options, words = command_names(command);
   for (const OptionEntry& option : options_of(command))

@@ -12,8 +12,7 @@ struct ManMargins {
   std::string version;  ///< "meniscus 0.1.0"
 };
 
-/// Returns the page of a command, for section 1. `program` is the command's program, and `exit_codes` the text about
-/// them.
+/// Returns the page of a command of a program, for section 1. exit_codes: the text about them.
 std::string command_man_page(const CommandEntry& command, const CommandEntry& program, std::string_view exit_codes,
                              const ManMargins& margins);
 

@@ -20,7 +20,7 @@ std::string header(const std::string& first, const std::vector<AreaColumn>& colu
 
 constexpr const char* kAtomColumns = "index,model,chain,residue,number,icode,name,element,class,radius";
 
-// Returns model, chain, residue, number, icode.
+// Returns the cells model,chain,residue,number,icode.
 std::string place(const Atom& atom) {
   return fmt::format("{},{},{},{},{}", atom.model, csv_cell(atom.chain), csv_cell(atom.residue_name),
                      atom.residue_number, letter(atom.insertion_code));

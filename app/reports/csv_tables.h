@@ -31,13 +31,12 @@ std::string residue_csv_header(const std::vector<AreaColumn>& columns, double pr
 std::string residue_csv_rows(const Structure& structure, const std::vector<AreaColumn>& columns, double probe_radius,
                              const std::string& prefix = "");
 
-/// Returns the header of a table with a row for each atom, as above, and three columns for each gradient:
-/// area_dx,area_dy,area_dz.
+/// Returns the header of a table with the atoms' rows and three columns per gradient: area_dx,area_dy,area_dz.
 std::string gradient_csv_header(const std::vector<GradientColumn>& gradients);
 std::string gradient_csv_rows(const Structure& structure, const std::vector<GradientColumn>& gradients,
                               const std::string& prefix = "");
 
-/// Quotes a text for such tables.
+/// Quotes a text for these tables.
 std::string csv_cell(const std::string& text);
 
 /// The first columns of a frame's rows: its number in the trajectory, and its time in ps or nothing.

@@ -12,7 +12,7 @@
 namespace meniscus {
 namespace {
 
-/// True if a preset has this rule for molecules of all kinds.
+/// Returns true if a preset has this rule for molecules of all kinds.
 bool is_rule_of_preset(const std::string& atoms) {
   return std::ranges::any_of(kPresets, [&](const Preset& preset) {
     return std::ranges::any_of(preset.settings, [&](const auto& one) { return one.text.starts_with(atoms + "="); });

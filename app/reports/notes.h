@@ -22,8 +22,7 @@ void log_line(const SceneCommand& command, const std::string& line);
 /// Prints the warnings about a file on standard error, in the requested detail, unless quiet.
 void log_warnings(const SceneCommand& command, const Structure& structure);
 
-/// Warns that this share of a surface lies outside the volume map that colours it, unless it is 0. whose: "the
-/// surface".
+/// Warns that a share of a surface lies outside its volume map, unless the share is 0. whose: "the surface".
 void warn_beyond_map(const SceneCommand& command, double share, std::string_view whose);
 
 /// Returns a sink for progress on standard error: a bar on a terminal, plain lines elsewhere, nothing when quiet.
@@ -55,8 +54,7 @@ void warn_if_unseen(const SceneCommand& command, const std::optional<Camera>& gi
 /// Prints the assemblies of a structure on standard output.
 void print_assemblies(const Structure& structure);
 
-/// Prints atoms, frames, times, the box of the first frame, and where the file is cut short; warnings go to standard
-/// error.
+/// Prints atoms, frames, times, the first box, and where the file is cut short; warnings go to standard error.
 void print_trajectory(Trajectory& trajectory);
 
 }  // namespace meniscus

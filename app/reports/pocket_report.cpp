@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the pockets of molecules, writes them as tables and JSON, looks for hints to give, and colours the atoms around
-// them.
+// Finds the pockets of molecules, writes them as tables and JSON, gives hints, and colours the atoms around pockets.
 #include "app/reports/pocket_report.h"
 
 #include <iterator>
@@ -15,7 +14,7 @@ namespace {
 SurfaceRequest with_probe(SurfaceRequest computing, double probe_radius) {
   computing.kind = SurfaceKind::ses;
   computing.probe_radius = probe_radius;
-  computing.planes = ClipPlanes::listed;  // because parts are cut out by planes
+  computing.planes = ClipPlanes::listed;  // planes cut out the parts
   return computing;
 }
 
@@ -155,7 +154,7 @@ std::string pocket_cells(const PocketReport& report, std::size_t n) {
                      csv_cell(residues_of(report.structure, pocket.cavity.atoms)), csv_cell(in_pocket(report, n)));
 }
 
-/// Returns the first few of some words, for a line that people read.
+/// Returns the first few of some words, in a line for people.
 std::string first_of(const std::string& words) {
   constexpr std::size_t kWidth = 48;
   if (words.size() <= kWidth) return words;

@@ -171,7 +171,7 @@ std::vector<Jobs::Worker> jobs_of(std::vector<FrameWorker> workers) {
   std::vector<Jobs::Worker> jobs;
   for (FrameWorker& worker : workers) {
     auto arena = std::make_shared<tbb::task_arena>(each);
-    arena->initialize();  // without memory for the first frame it would wait for itself forever in the next
+    arena->initialize();  // without memory for the first frame it would otherwise wait for itself forever in the next
     jobs.push_back(job_of(std::move(worker), std::move(arena)));
   }
   return jobs;
@@ -179,7 +179,7 @@ std::vector<Jobs::Worker> jobs_of(std::vector<FrameWorker> workers) {
 
 std::size_t frames_at_once(const FrameRun& frames, const SceneCommand& command, std::uint64_t frame_bytes) {
   if (command.jobs > 0) return command.jobs;
-  // Each thread takes far more addresses than memory.
+  // Each thread takes far more address space than memory.
   if (memory_is_limited()) return 1;
   const auto cores =
       static_cast<std::uint64_t>(command.scene.molecule.surface.threads > 0 ? command.scene.molecule.surface.threads

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the frames of a run on several threads, and reports how far it is.
+// Makes the frames of a run on several threads, and reports the progress.
 #pragma once
 
 #include "app/options/scene_options.h"
@@ -53,16 +53,15 @@ std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& fra
 /// Prints the largest share of a frame's surface outside a volume map.
 void warn_beyond_map(const SceneCommand& command, std::span<const std::shared_ptr<MoleculeBuilder>> builders);
 
-/// The approximate memory of a frame until it is finished: its surface and areas; and a mesh of half a pixel, with its
-/// file.
+/// The approximate memory of a frame until it is finished: surface and areas; mesh of half a pixel and its file.
 constexpr std::uint64_t kSurfaceBytesPerAtom = 8'000, kMeshBytesPerAtom = 150'000;
 
-/// Has the frames of the chunk made, each by one worker, and finishes them in order. The workers share the cores; a
-/// single worker uses all of them on the calling thread. If reading or making a frame throws, the error is printed on
-/// standard error, and the run continues; but OutputError and GpuError end it at once, because the next frame would
-/// meet them, too. Pictures that show nothing, or lack their labels, are reported together in one line. At the end it
-/// throws RunError: with the code of the first frame that failed, else with kExitIncomplete if the trajectory was cut
-/// short and the run reaches its last whole frame.
+/// Makes the frames of the chunk, each by one worker, and finishes them in order. The workers share the cores; a single
+/// worker uses all of them on the calling thread. If reading or making a frame throws, the error is printed on standard
+/// error, and the run continues; but OutputError and GpuError end it at once, because the next frame would meet them,
+/// too. Pictures that show nothing, or lack their labels, are reported together in one line. At the end it throws
+/// RunError: with the code of the first frame that failed, else with kExitIncomplete if the trajectory was cut short
+/// and the run reaches its last complete frame.
 void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<FrameWorker> workers);
 
 }  // namespace meniscus

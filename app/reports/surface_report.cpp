@@ -198,7 +198,7 @@ std::string component_table(const Surface& surface) {
   return text;
 }
 
-/// Returns a row of areas for each chain, and their totals if the lines above do not have them all.
+/// Returns a row of areas for each chain, and their totals if the lines above do not contain them all.
 std::string chain_table(const SurfaceReport& report) {
   const std::vector<AtomGroup> chains = group_atoms(report.molecule.structure, Grouping::chain);
   if (chains.size() == 1 && !report.context) return {};

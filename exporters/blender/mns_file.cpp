@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the header and the arrays of a .mns file, describes a camera in JSON, and collects balls, colours and
-// attributes of atoms.
+// Writes the header and the arrays of a .mns file, describes cameras, and collects balls, colours and attributes.
 #include "exporters/blender/mns_file.h"
 
 #include <bit>
@@ -171,8 +170,7 @@ void add_names(nlohmann::json& header, const AtomAttributes& atoms) {
 
 namespace {
 
-/// Appends a number, or 0 if it is missing, because Blender cannot express missing numbers. Sets `any` if it is not
-/// missing.
+/// Appends a number, or 0 if it is missing, which Blender cannot express. Sets `any` if it is not missing.
 void push_known(std::vector<float>& numbers, double number, bool& any) {
   any = any || std::isfinite(number);
   numbers.push_back(std::isfinite(number) ? static_cast<float>(number) : 0.0f);
@@ -188,7 +186,7 @@ class Names {
     if (fresh) names_.push_back(name);
     return at->second;
   }
-  /// True unless the only name is empty, as in formats without names.
+  /// Returns true unless the only name is empty, as in formats without names.
   bool are_known() const { return names_.size() > 1 || (names_.size() == 1 && !names_.front().empty()); }
 
  private:

@@ -116,7 +116,7 @@ struct AtomAttributes {
   std::vector<std::uint32_t> file_index;  ///< place in the file, from 0 (Atom::index)
   std::vector<float> b_factor;
   std::vector<float> charge;          ///< e; 0 if unknown
-  std::vector<float> hydrophobicity;  ///< of the residue (Kyte & Doolittle 1982); 0 if it has none
+  std::vector<float> hydrophobicity;  ///< hydropathy of the residue (Kyte & Doolittle 1982); 0 if it has none
   std::vector<std::int32_t> atomic_number;
   std::vector<std::int32_t> residue_number;
   std::vector<std::int32_t> entity;                                 ///< AtomClass
@@ -124,8 +124,7 @@ struct AtomAttributes {
   std::vector<std::int32_t> name;                                   ///< index into atom_names
   std::vector<std::int32_t> residue_name;                           ///< index into residue_names
   std::vector<std::string> chain_names, atom_names, residue_names;  ///< text from a molecule file, each name once
-  /// Area of the surface, area accessible to the centre of a probe, and the part of the latter that other chains bury,
-  /// in Å².
+  /// Areas in Å²: of the surface, accessible to the centre of a probe, and the part that other chains bury.
   std::vector<float> area, accessible_area, buried_area;
 };
 
@@ -136,8 +135,7 @@ void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttribute
 /// Adds the lists of names, which arrays of atoms refer to by index, to the header of an object.
 void add_names(nlohmann::json& header, const AtomAttributes& atoms);
 
-/// Returns the attributes of these atoms of the structure, in this order. Areas are empty, and so are attributes that
-/// no atom has.
+/// Returns the attributes of these atoms in this order. Areas are empty, and attributes that no atom has.
 AtomAttributes atom_attributes(const Structure& structure, const std::vector<std::uint32_t>& atoms);
 
 }  // namespace meniscus::blender

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files that come with the .mns files of a run or a film: the manifest of frames, the atoms of each frame, and the
-// storyboard.
+// Files in addition to the .mns files of a run or a film: the manifest, the atoms of each frame, the storyboard.
 #pragma once
 
 #include "core/base/output_file.h"

@@ -16,8 +16,7 @@ namespace meniscus::blender {
 
 /// The default tolerance of a mesh for Blender, Å.
 inline constexpr double kTolerance = 0.1;
-/// The default tolerance of the frames of a run, Å. Pictures of the whole molecule look the same, and files have half
-/// the size.
+/// The default tolerance of the frames of a run, Å. Whole molecules look the same, and files have half the size.
 inline constexpr double kRunTolerance = 0.2;
 
 /// The origin of a surface, which the file contains and Blender shows as custom properties.

@@ -27,8 +27,7 @@ constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123;  // com
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;          // target
 constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
-/// Converts a channel from sRGB to linear light, in which GLB stores colours of vertices. 16 bits keep all values of 8
-/// bits of sRGB distinct.
+/// Converts a channel from sRGB to linear light, as GLB stores it. 16 bits keep all 8-bit values distinct.
 std::uint16_t linear(std::uint8_t channel) {
   return static_cast<std::uint16_t>(std::lround(65535.0f * linear_from_srgb(static_cast<float>(channel) / 255.0f)));
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds points inside components, and makes objects of mesh files from surfaces with colours and numbers and from
-// pockets.
+// Finds points inside components, and makes objects of mesh files from surfaces with colours, and from pockets.
 //
-// The winding number of the triangles confirms the point; if it is not inside them, a point below one of the triangles
-// is taken.
+// The winding number of the triangles confirms a point; otherwise a point below one of them is taken.
 #include "exporters/mesh_files/mesh_formats.h"
 
 #include "core/base/error.h"
@@ -101,8 +99,7 @@ std::array<std::uint8_t, 3> bytes_of(const glm::vec3& color) {
   return {byte(color.x), byte(color.y), byte(color.z)};
 }
 
-/// Moves the row of each vertex to its new place, and removes the rows of vertices whose place is kNone. count: the
-/// number of places.
+/// Moves the rows of vertices to their places, and removes those whose place is kNone. count: number of places.
 template <class T>
 void move_rows(std::vector<T>& rows, const std::vector<std::uint32_t>& place, std::size_t count) {
   std::vector<T> moved(count);
@@ -137,8 +134,8 @@ MeshFileMaker::MeshFileMaker(FileRequest request, std::string about) : request_(
   for (const Atom& atom : request_.atoms) file_.atoms.push_back(file_atom(atom));
 }
 
-// True if all places of an object can share one mesh. Values of a volume map, the open sky, and tolerances in pixels of
-// a camera differ from place to place.
+// Returns true if all places of an object can share one mesh. Values of a volume map, the open sky, and tolerances in
+// pixels of a camera differ from place to place.
 bool MeshFileMaker::can_share_mesh(const SurfaceObject& object) const {
   return request_.places && !object.coloring.volume && !request_.fineness.tolerance_at &&
          std::ranges::none_of(request_.numbers,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists the formats of mesh files, finds one by its name or ending, writes a file in it, and fills its columns of
-// numbers.
+// Lists the formats of mesh files, finds one by name or ending, writes files, and fills their columns of numbers.
 #include "exporters/mesh_files/mesh_formats.h"
 
 #include "core/base/error.h"

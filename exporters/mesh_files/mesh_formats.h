@@ -115,8 +115,7 @@ struct FileRequest {
   FileMaterial material = {};
 };
 
-/// Returns one line about a file: the program, the length of 1 Å, the kind of surface (such as "solvent-excluded"), and
-/// the fineness.
+/// Returns a line about a file: program, length of 1 Å, kind of surface (such as "solvent-excluded"), fineness.
 std::string about_line(std::string_view surface, double scale, const MeshFineness& fineness);
 
 /// Makes a file object by object.
@@ -139,8 +138,7 @@ class MeshFileMaker {
   std::size_t joined_edges() const { return joined_; }
   std::size_t flipped_edges() const { return flipped_; }
   std::size_t fins() const { return fins_; }
-  /// Returns the number of triangles without area that remain, because welding them would leave the mesh open, pinched
-  /// or folded.
+  /// Returns the number of flat triangles that remain, because welding would leave the mesh open, pinched or folded.
   std::size_t flat_triangles() const { return flat_; }
 
   /// Returns the file. It must be called once, after all other members. Throws RequestError where no triangle is shown.

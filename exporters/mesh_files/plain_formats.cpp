@@ -272,8 +272,7 @@ class Arrays {
     return line;
   }
 
-  /// Appends words, each followed by a zero byte. They may contain all other bytes, because this part of the file is
-  /// not parsed as XML.
+  /// Appends words that end with a zero byte and may contain any other, because this part is not parsed as XML.
   std::string of_words(const std::string& name, std::span<const std::string> words) {
     std::string line = begin("String", name, 1);
     std::uint64_t size = 0;

@@ -46,8 +46,7 @@ constexpr auto kLooks = std::to_array<MaterialLook>({{"figure", 0.5f, ""},
                                                      {"metal", 0.35f, "float inputs:metallic = 1"},
                                                      {"glass", 0.05f, "float inputs:opacity = 0.35"}});
 
-/// Returns a material. Its base color and, if it is translucent, its opacity are primvars of the mesh to which it is
-/// bound.
+/// Returns a material. Its base color and, if it is translucent, its opacity are primvars of the bound mesh.
 std::string material_text(std::string_view name, bool is_translucent) {
   const std::string path = fmt::format("/molecule/looks/{}", name);
   const auto reader = [](std::string_view of, std::string_view type, std::string_view primvar, std::string_view other) {
@@ -71,8 +70,7 @@ std::string material_text(std::string_view name, bool is_translucent) {
   return text + "        }\n";
 }
 
-/// Returns the set of looks as variants. A look changes the shaders of both materials, but translucent meshes keep
-/// their opacity.
+/// Returns the looks as variants. A look changes both materials, but translucent meshes keep their opacity.
 std::string looks_text(const FileMaterial& material, bool is_translucent) {
   std::string text = "    variantSet \"look\" = {\n";
   for (const MaterialLook& look : kLooks) {
@@ -227,8 +225,7 @@ class UsdWriter {
     sink_("    }\n");
   }
 
-  /// Writes an instance of the prototype for each place. Throws RequestError if the number of places differs from frame
-  /// to frame.
+  /// Writes an instance of the prototype per place. Throws RequestError if their number differs between frames.
   void write_instances(const Prim& prim) {
     const std::size_t count = prim.first().places.size();
     if (std::ranges::any_of(prim.frames, [&](const FileObject* o) { return o && o->places.size() != count; }))
@@ -285,8 +282,7 @@ class UsdWriter {
     sink_("    }\n");
   }
 
-  /// Writes one attribute of an object. `text_of` returns its value in a frame. In frames that do not have the object,
-  /// it has no points.
+  /// Writes an attribute. `text_of` returns its value in a frame, where the object may be missing and has no points.
   template <class TextOf>
   void add(const Prim& prim, const std::string& declared, std::string_view interpolation, const TextOf& text_of) {
     const std::string about = interpolation.empty()

@@ -42,12 +42,11 @@ struct FileAtom {
 struct FileObject {
   std::string name;                                     ///< may contain text from a molecule file
   std::vector<glm::vec3> positions;                     ///< in the unit of the file
-  std::vector<glm::vec3> normals;                       ///< of unit length, towards the solvent
+  std::vector<glm::vec3> normals;                       ///< unit vectors towards the solvent
   std::vector<std::array<std::uint8_t, 3>> colors;      ///< sRGB
   std::vector<float> opacities;                         ///< in (0, 1]; empty if the object is opaque
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the solvent
-  /// sRGB per triangle. These colours change exactly at the borders of patches. Empty if a volume map colours points,
-  /// and for joined objects.
+  /// sRGB per triangle, which changes exactly at borders of patches. Empty for colours of a map and joined objects.
   std::vector<std::array<std::uint8_t, 3>> triangle_colors;
   std::vector<VertexNumbers> numbers;    ///< the same names in all objects of a file
   std::vector<std::uint32_t> atom;       ///< index into MeshFile::atoms
@@ -59,7 +58,7 @@ struct FileObject {
   /// MeshFormat::places have several, or one that is not the identity.
   std::vector<RigidMotion> places{RigidMotion{}};
 
-  /// True if the object is in one place and is not moved.
+  /// Returns true if the object is in one place and is not moved.
   bool is_placed_once() const {
     return places.size() == 1 && places[0].rotation == glm::dmat3(1.0) && places[0].translation == glm::dvec3(0.0);
   }
@@ -100,8 +99,7 @@ void write_3mf(OutputFile& file, const MeshFile& mesh);
 void write_obj(OutputFile& file, const MeshFile& mesh);
 /// Object File Format of Geomview, as text: positions and triangles alone.
 void write_off(OutputFile& file, const MeshFile& mesh);
-/// glTF 2.0 in one binary file (ISO/IEC 12113:2022, section 4.4); numbers are attributes whose names begin with an
-/// underscore.
+/// glTF 2.0 in one binary file (ISO/IEC 12113:2022, 4.4); numbers are attributes that begin with an underscore.
 void write_glb(OutputFile& file, const MeshFile& mesh);
 /// VTK's XML polygons with raw appended arrays (W. Schroeder et al., "The VTK user's guide", 2010, section 19.3).
 void write_vtp(OutputFile& file, const MeshFile& mesh);
@@ -161,8 +159,7 @@ class BinaryRows {
   std::vector<std::byte> bytes_;
 };
 
-/// Returns `beginning` followed by the texts that put_row(n, out) writes for each n below `count`, in order. Rows are
-/// written in parallel.
+/// Returns `beginning` and the texts that put_row(n, out) writes for n below `count`, in order but in parallel.
 template <typename PutRow>
 std::string text_of_rows(std::string beginning, std::size_t count, const PutRow& put_row) {
   constexpr std::size_t kChunk = 4096;
@@ -199,8 +196,7 @@ class ZipArchive {
  public:
   /// Adds a file in compressed form. Throws CapacityError for content of 4 GiB or more.
   void add_deflated(const std::string& name, std::string_view content);
-  /// Adds a file without compression at a multiple of 64 bytes, which USDZ requires. Throws CapacityError for content
-  /// of 4 GiB or more.
+  /// Adds a file uncompressed at a multiple of 64 bytes, as in USDZ. Throws CapacityError for 4 GiB or more.
   void add_stored(const std::string& name, std::string_view content);
   /// Returns the bytes of the archive. It must be called once, after all files were added.
   std::vector<std::byte> finish();

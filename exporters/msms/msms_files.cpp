@@ -220,8 +220,7 @@ namespace {
 constexpr const char* kNanoShaper =
     "# File created by NanoShaper version 1.5 (meniscus-nanoshaper " MENISCUS_VERSION ")\n";
 
-/// Returns 0 for numbers that round to zero at three decimals. Some readers take the minus sign of "-0.000" for a field
-/// of its own.
+/// Returns 0 for numbers that round to zero at three decimals: some readers cannot read "-0.000".
 double unsigned_zero(double x) { return std::abs(x) < 0.0005 ? 0.0 : x; }
 
 std::string header_text(const char* what, const char* counted, std::size_t count, const MsmsSpheres& spheres,

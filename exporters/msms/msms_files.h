@@ -65,8 +65,7 @@ struct MsmsSpheres {
   std::size_t count = 0;               ///< number of spheres
 };
 
-/// The lines before the rows of a file, in the form of MSMS or of NanoShaper. The third line of NanoShaper's header is
-/// the number of rows only.
+/// The lines before the rows of a file. The third line of NanoShaper's form has the number of rows only.
 struct MsmsHeader {
   bool wanted = true;          ///< true if the header is written
   double density = 0.0;        ///< requested vertices per Å²
@@ -74,8 +73,7 @@ struct MsmsHeader {
   bool of_nanoshaper = false;  ///< true for NanoShaper's form, in which rows of vertices also end with a blank
 };
 
-/// Returns the text of a .vert file: rows of nine columns, or ten with names: position, normal, face, closest sphere
-/// (from 1), level, name.
+/// Returns the text of a .vert file: position, normal, face, closest sphere (from 1), level, perhaps name.
 std::string vert_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const MsmsHeader& header);
 
 /// Returns the text of a .face file: rows of five columns: corners (from 1), kind, face.

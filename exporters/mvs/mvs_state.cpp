@@ -48,8 +48,7 @@ json mesh_node(const path_tracers::SceneMesh& mesh, const glm::dvec3& origin) {
                             {"group_colors", std::move(colors)}});
 }
 
-/// Returns a motion x -> R x + t of coordinates relative to the origin as a matrix for coordinates of the molecule, in
-/// column-major order.
+/// Returns a motion in coordinates relative to the origin as a column-major matrix for the molecule's coordinates.
 json matrix_of(const RigidMotion& copy, const glm::dvec3& origin) {
   const glm::dvec3 shift = copy.translation + origin - copy.rotation * origin;
   json matrix = json::array();

@@ -1,9 +1,9 @@
-# Writes the stage's files as pages have them: the script in two halves and the style, without indentation and without
-# lines that are comments alone, the text, and the policy of a page in one file, which names the digests of both (SHA-256).
-# Run as: cmake -DFOLDER=<the stage's own files> -DOUTPUT=<folder of page.html, page.css, policy.html, first.js and
-# second.js> -P join_page.cmake
+# Writes the stage's files for pages: the text, the script in two halves and the style, without indentation and without
+# lines that are comments alone, and a page's policy, which names the digests of script and style (SHA-256). Run as:
+# cmake -DFOLDER=<the stage's own files> -DOUTPUT=<folder of page.html, page.css, policy.html, first.js and second.js>
+# -P join_page.cmake
 
-# As policies have it (RFC 4648, section 4): 256 bits are 42 times two letters, a last one of four bits, and a sign.
+# Computes a digest in base64 (RFC 4648, section 4): 42 times two letters, one letter for four bits, and a sign.
 function(digest_of variable file)
   set(letters "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/")
   file(SHA256 ${file} digits)
@@ -21,7 +21,7 @@ function(digest_of variable file)
   set(${variable} "'sha256-${text}='" PARENT_SCOPE)
 endfunction()
 
-# The script is kept in two files, because C++ compilers need not take a text of more than 65,536 letters.
+# The script is in two files, because C++ compilers need not accept a text of more than 65,536 letters.
 set(script "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";")
 set(first data camera light caster)
 set(second layers frames png messages viewer controls)
@@ -38,7 +38,7 @@ foreach(half first second)
   string(APPEND whole "${script}")
   set(script "")
 endforeach()
-file(REMOVE ${OUTPUT}/page.js)  # of builds before there were two
+file(REMOVE ${OUTPUT}/page.js)  # an earlier version wrote one file
 file(WRITE ${OUTPUT}.js "${whole}")
 file(READ ${FOLDER}/page.css style)
 string(REGEX REPLACE "\n +" "\n" style "${style}")

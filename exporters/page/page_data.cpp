@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sorts the bytes of tables, deflates them, and spells them as text.
+// Sorts the bytes of tables, deflates them, and writes them as text.
 #include "exporters/page/page_data.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a page shows, or what it shows at one frame of a run; and what its script reads: descriptions as JSON and tables
-// of records, deflated and written as text.
+// The content of a page, or of one frame of a run, and the data that the page's script reads: descriptions as JSON and
+// tables of records, deflated and written as text.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,17 +15,17 @@
 
 namespace meniscus::page {
 
-/// zlib's format (RFC 1950).
+/// Return data in zlib's format (RFC 1950).
 std::string deflated(std::string_view bytes);
 std::string deflated(const nlohmann::json& description);
-/// Returns a description as text, in UTF-8 whatever the encoding of its names.
+/// Returns a description as text in UTF-8, whatever the encoding of its names.
 std::string text_of(const nlohmann::json& description);
 
 /// The form of a packed table.
 enum class Packing {
-  deflated,  ///< the first bytes of all records come first, then the second ones, and so on: what is alike in them lies
-             ///< together, and deflates well
-  plain      ///< the records as they are
+  deflated,  ///< the first bytes of all records, then the second bytes and so on: similar bytes are together and
+             ///< deflate well
+  plain      ///< the records unchanged
 };
 
 struct PageTable {
@@ -35,21 +35,21 @@ struct PageTable {
 };
 
 PageTable packed_table(std::string_view name, std::span<const std::byte> bytes, std::size_t stride, Packing packing);
-/// T: of whole words, without padding.
+/// Returns a table. T: consists of 4-byte words, without padding.
 template <typename T>
 PageTable page_table(std::string_view name, const std::vector<T>& records, Packing packing) {
   return packed_table(name, std::as_bytes(std::span(records)), sizeof(T), packing);
 }
 
-/// Parts, each deflated by itself, so that a page unpacks what it shows. Those that are equal are held once.
+/// Parts, deflated separately, so that a page unpacks only those that it shows. Equal parts are stored once.
 class PageData {
  public:
-  /// Its number, by which the page finds it.
+  /// Adds a part and returns its number, by which the page finds it.
   std::size_t add(std::string packed);
   std::size_t size() const { return size_; }  ///< bytes
 
-  /// How many parts there are, and how long each is, in four bytes each, lowest first; then the parts: `first`, and the
-  /// others, which are numbered from 1.
+  /// Returns the number of parts and the length of each in four bytes, lowest first, and then the parts: `first`, and
+  /// the others, which are numbered from 1.
   std::string bytes(const std::string& first) const;
 
  private:
@@ -58,67 +58,66 @@ class PageData {
   std::size_t size_ = 0;
 };
 
-/// Bytes as printable text: 13 bits as two of 91 characters, none of which means anything in HTML, in lines. A fifth
-/// longer than the bytes, where base64 is a third longer.
+/// Returns bytes as printable text in lines: 13 bits become two of 91 characters that have no meaning in HTML. The text
+/// is a fifth longer than the bytes; base64 is a third longer.
 std::string text_of_bytes(std::string_view bytes);
 
-/// Colours that readers can choose instead of the figure's own.
+/// Colours that readers can choose instead of the figure's.
 struct PageScheme {
   std::string name;                                ///< "chain", ...
-  ColorKey key;                                    ///< what they mean
-  std::vector<glm::vec3> colors;                   ///< sRGB: of the surface's atoms, then of those beside it
+  ColorKey key;                                    ///< the meaning of the colours
+  std::vector<glm::vec3> colors;                   ///< sRGB: surface atoms, then atoms next to the surface
   std::optional<std::array<glm::vec3, 3>> kind{};  ///< Coloring::kind
-  std::optional<Look> look{};                      ///< instead of the figure's
+  std::optional<Look> look{};                      ///< replaces the figure's look
 };
 
-/// A view that readers choose by its name.
+/// A view that readers can choose by its name.
 struct PageView {
   std::string name;
   Camera camera;
-  std::vector<ClipPlane> clip{};  ///< cut the surface then, and no others do
-  float opacity = 1.0f;           ///< of the surface, times that of its atoms
-  bool looks_inside = false;      ///< as for hues_of()
+  std::vector<ClipPlane> clip{};  ///< planes that cut the surface in this view, and no others
+  float opacity = 1.0f;           ///< factor of the opacity of the surface's atoms
+  bool looks_inside = false;      ///< see hues_of()
 };
 
-/// What stands beside the surface that planes cut and readers see through: it is opaque and whole. Surfaces have the
+/// An object in addition to the surface, which planes may cut; the object is opaque and complete. Surfaces have the
 /// same probe, or none.
 struct PageObject {
-  const SurfaceObject* surface = nullptr;  ///< this one,
-  const ColoredShapes* shapes = nullptr;   ///< or these
-  bool has_own_colors = false;             ///< whatever scheme is chosen
+  const SurfaceObject* surface = nullptr;  ///< a surface,
+  const ColoredShapes* shapes = nullptr;   ///< or shapes
+  bool has_own_colors = false;             ///< true if colour schemes do not change it
 };
 
-/// A picture's file.
+/// The file of a picture.
 struct StillPicture {
   std::string type;  ///< "image/jpeg"
   std::vector<std::uint8_t> bytes;
 };
 
-/// What a page shows, or what it shows at one frame of a run. Texts may come from files; what is pointed to must stay
-/// until the page is written.
+/// The content of a page at one frame. Texts may come from files; pointers must stay valid until it is written.
 struct PageFigure {
   std::string title;
-  std::string description;  ///< a sentence or two, for those who do not see the picture
-  std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of its table
-  const SurfaceObject* surface = nullptr;                    ///< where it stands, one copy; nullptr: none
-  bool has_own_colors = false;                               ///< as in PageObject
-  std::vector<ClipPlane> clip{};                             ///< cut it, at first
-  CapStyle cap{};                                            ///< where they do
+  std::string description;  ///< a sentence or two, for readers who cannot see the picture
+  std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of the page's table
+  const SurfaceObject* surface = nullptr;                    ///< one copy in its final place; nullptr: no surface
+  bool has_own_colors = false;                               ///< see PageObject
+  std::vector<ClipPlane> clip{};                             ///< planes that cut it at first
+  CapStyle cap{};                                            ///< caps at these planes
   bool thickens = false;                                     ///< PictureObject::thickens
   std::vector<PageObject> extras{};                          ///< drawn in addition to the surface
-  std::span<const Atom> atoms{};  ///< SurfaceObject::atom and those of shapes are places here
-  Camera camera;                  ///< at first
-  std::vector<PageView> views{};  ///< beside the first one
+  std::span<const Atom> atoms{};  ///< SurfaceObject::atom and the atoms of shapes are indices into these
+  Camera camera;                  ///< the first camera
+  std::vector<PageView> views{};  ///< views in addition to the first one
   std::span<const PlaceLabel> labels{};
-  glm::ivec2 size{0};  ///< of the picture that the look was made for, pixels
+  glm::ivec2 size{0};  ///< size in pixels of the picture for which the look was made
   Look look;
-  bool fades_always = false;  ///< into the distance; else not where readers look inside or see through the surface
-  std::string scheme;         ///< the name of its colours
+  bool fades_always = false;  ///< depth cue everywhere; false: not where readers look inside or through the surface
+  std::string scheme;         ///< the name of the colour scheme
   std::vector<PageScheme> more_schemes{};
-  ColorKey key;                        ///< what its colours mean
-  StillPicture still;                  ///< for readers without WebGL 2; empty: none
-  std::string moment;                  ///< which frame it is, such as "frame 3", "2.500 ns"
-  std::optional<glm::dvec3> origin{};  ///< from where the records count, Å: of a run one; nothing: in its middle
+  ColorKey key;                        ///< the meaning of its colours
+  StillPicture still;                  ///< for readers without WebGL 2; empty: no picture
+  std::string moment;                  ///< name of the frame, such as "frame 3", "2.500 ns"
+  std::optional<glm::dvec3> origin{};  ///< origin of the records, Å; the same in a run; nothing: the middle
 };
 
 inline constexpr std::size_t kMostPlanes = 8;

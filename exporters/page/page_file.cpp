@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts descriptions, records, shaders and the page's own files into one text.
+// Combines descriptions, records, shaders and the page's own files into one text.
 #include "exporters/page/page_file.h"
 
 #include <cstring>
@@ -20,7 +20,7 @@ constexpr int kMostSamples = 16;
 
 json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-/// The words of a block of parameters, as the kernels have it.
+/// Returns the words of a block of parameters of the kernels.
 template <typename Block>
 json words_of(const Block& block) {
   std::array<std::uint32_t, sizeof(Block) / sizeof(std::uint32_t)> words{};
@@ -28,7 +28,7 @@ json words_of(const Block& block) {
   return words;
 }
 
-/// "A THR 12", and the name of the atom alone.
+/// Returns the name of a residue, such as "A THR 12", or of an atom without a residue.
 std::string residue_of(const Atom& atom) {
   if (atom.residue_name.empty()) return fmt::format("atom {}", atom.index + 1);
   const std::string code = atom.insertion_code == ' ' ? std::string() : std::string(1, atom.insertion_code);
@@ -36,7 +36,7 @@ std::string residue_of(const Atom& atom) {
                      code);
 }
 
-/// Without indentation, and without lines that are comments alone: these are for who reads the sources.
+/// Returns a source without indentation and without lines that are comments alone.
 std::string compact(std::string_view text) {
   std::string code;
   while (!text.empty()) {
@@ -49,7 +49,7 @@ std::string compact(std::string_view text) {
   return code;
 }
 
-/// The shaders in GLSL ES 3.00 and what they include, by their paths; the page's script puts them together.
+/// Returns the shaders in GLSL ES 3.00 and the files that they include, by path; the page's script combines them.
 json shaders() {
   const auto find = [](std::string_view wanted) -> std::optional<std::string_view> {
     for (const EmbeddedShader& shader : embedded_shaders())
@@ -90,7 +90,7 @@ json camera_of(const Camera& camera, const glm::dvec3& origin) {
           {"height", camera.height}};
 }
 
-/// Swatches are drawings: a style of their own the page's policy would refuse.
+/// Returns a swatch as a drawing, because the page's policy forbids styles of its own.
 std::string swatch(const glm::vec3& color) {
   return fmt::format(
       R"(<svg class="swatch" viewBox="0 0 1 1" aria-hidden="true"><rect width="1" height="1" fill="{}"/></svg>)",
@@ -142,8 +142,7 @@ json light_maps_of(const Tables& tables) {
           {"surfaces", tables.surfaces()}};
 }
 
-/// Returns which maps a look needs, the direction towards the lamp in the picture's axes, and the lamp's radius at the
-/// distance 1.
+/// Returns which maps a look needs, the direction to the lamp in the picture, and its radius at distance 1.
 json light_of(const Look& look) {
   return {{"maps_sky", look.maps_sky()},
           {"maps_lamp", look.maps_lamp()},
@@ -151,7 +150,7 @@ json light_of(const Look& look) {
           {"disc", std::tan(static_cast<double>(look.shadow_softness) * std::numbers::pi / 180.0)}};
 }
 
-/// How points are lit and finished.
+/// Returns the parameters of light and finish.
 json look_words(const PageFigure& figure, const Look& look, const Tables& tables) {
   const kernel::FinishParameters finish =
       finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks());
@@ -167,7 +166,7 @@ json look_words(const PageFigure& figure, const Look& look, const Tables& tables
           {"specular", look.material.specular}};
 }
 
-/// look: of those that have another than the figure.
+/// Returns the colour schemes. A scheme has a look if it differs from the figure's.
 json schemes_of(const PageFigure& figure, const Tables& tables) {
   json schemes = json::array();
   const auto add = [&](const std::string& name, const ColorKey& key, bool by_kind, const std::optional<Look>& look) {
@@ -180,7 +179,7 @@ json schemes_of(const PageFigure& figure, const Tables& tables) {
   return schemes;
 }
 
-/// The first view, and those that readers choose. origin: from where the records count.
+/// Returns the first view and those that readers can choose. origin: the origin of the records.
 json views_of(const PageFigure& figure, const glm::dvec3& origin) {
   json views = json::array();
   const auto add = [&](const PageView& view) {
@@ -205,7 +204,7 @@ json views_of(const PageFigure& figure, const glm::dvec3& origin) {
   return views;
 }
 
-/// What layers.js asks for; null without a surface.
+/// Returns the data for layers.js; null without a surface.
 json layers_of(const PageFigure& figure) {
   if (!figure.surface) return nullptr;
   const SurfaceObject& object = *figure.surface;
@@ -313,7 +312,7 @@ void PageWriter::add(PackedFrame frame) {
 }
 
 std::size_t PageWriter::bytes() const {
-  constexpr double kLettersPerByte = 16.0 / 13.0 * 1.0005;  // text_of_bytes(), and ends of lines
+  constexpr double kLettersPerByte = 16.0 / 13.0 * 1.0005;  // the density of text_of_bytes(), with ends of lines
   constexpr std::size_t kOthers = 98'000;                   // scripts, style, shaders
   std::size_t texts = kOthers;
   for (const Filling& filling : first_.texts) texts += filling.text.size();
@@ -331,7 +330,7 @@ std::string PageWriter::text(const std::string& scene) const {
   fill("VERSION", MENISCUS_VERSION);
   fill("POLICY", std::string(template_text(page_templates(), "policy.html")));
   fill("STYLE", fmt::format("<style>{}</style>", template_text(page_templates(), "page.css")));
-  std::string in_html;  // in which no "<" of a JSON text may begin a tag
+  std::string in_html;  // text in which no "<" of the JSON can begin a tag
   for (const char letter : scene) in_html += letter == '<' ? std::string("\\u003c") : std::string(1, letter);
   fill("SCRIPT",
        fmt::format("<script type=\"application/json\" id=\"scene\">{}</script>\n<script>{}{}</script>", in_html,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packs a figure's records for no camera, around one point, rounds them, and predicts the rows of patches from atoms
-// and from rows before them.
+// Packs the records of a figure around one point, without a camera, rounds them, and predicts the rows of patches from
+// atoms and from earlier rows.
 #include "exporters/page/page_tables.h"
 
 #include <bit>
@@ -14,13 +14,13 @@
 namespace meniscus::page {
 namespace {
 
-constexpr std::size_t kMostTexels = std::size_t{2048} * 8192;  // of a table
-/// Where a primitive belongs, in the place of its index; both are set in that of shapes.
+constexpr std::size_t kMostTexels = std::size_t{2048} * 8192;  // limit of a table
+/// Flags of a primitive, stored in its index: next to the surface, and with its own colours. Shapes have both.
 constexpr std::uint32_t kIsBeside = 1, kHasOwnColors = 2, kShapeIndex = 0xffffffffu;
-constexpr std::size_t kMapColors = 1024;  // of a volume map's scale
-constexpr double kMapSteps = 1 << 14;     // over its range: what its values are rounded to
+constexpr std::size_t kMapColors = 1024;  // colours in the scale of a volume map
+constexpr double kMapSteps = 1 << 14;     // steps over the range, to which values are rounded
 
-/// What rounding may part neighbours by, who overlap by so much more.
+/// Neighbours overlap by so much more, because rounding may separate them.
 constexpr float kRoundingSlack = 2.0f * kRounding;
 
 float rounded(float value, float step = kRounding) { return std::round(value / step) * step; }
@@ -29,15 +29,15 @@ glm::vec3 rounded(const glm::vec3& v, float step) {
   return {rounded(v.x, step), rounded(v.y, step), rounded(v.z, step)};
 }
 
-/// of_atom: a direction, and the bits of an atom's number.
+/// Rounds a row. of_atom: true if the row is a direction and the bits of an atom's number.
 void round_row(glm::vec4& row, bool of_atom) {
   row = of_atom ? glm::vec4(rounded(glm::vec3(row), kColorRounding), row.w)
                 : glm::vec4(rounded(glm::vec3(row), kRounding), rounded(row.w));
 }
 
-/// Coarser, and larger by as much.
+/// Returns a bound that is rounded to coarser steps, and larger by the rounding error.
 glm::vec4 rounded_bound(const glm::vec4& bound) {
-  constexpr float kSteps = 256.0f;  // an Å
+  constexpr float kSteps = 256.0f;  // steps per Å
   const glm::vec3 center = glm::round(glm::vec3(bound) * kSteps) / kSteps;
   return glm::vec4(center,
                    std::ceil((bound.w + glm::length(center - glm::vec3(bound)) + kRoundingSlack) * kSteps) / kSteps);
@@ -52,7 +52,7 @@ glm::dvec3 middle_of(std::span<const Ball> balls) {
   return 0.5 * (low + high);
 }
 
-/// For tables that belong to no camera: all that is in them is in front.
+/// Returns a frame for tables without a camera, in which everything is in front.
 PictureFrame frame_around(const glm::dvec3& pivot) {
   constexpr double kFarAway = 1e7;  // Å
   PictureFrame frame;
@@ -65,7 +65,7 @@ PictureFrame frame_around(const glm::dvec3& pivot) {
   return frame;
 }
 
-/// The only one that there is beside 0.
+/// Returns the radius of all probes that are not 0.
 double probe_of(const PageFigure& figure) {
   double probe = figure.surface ? figure.surface->surface.probe_radius : 0.0;
   for (const PageObject& object : figure.extras)
@@ -73,7 +73,7 @@ double probe_of(const PageFigure& figure) {
   return probe;
 }
 
-/// sRGB, red lowest: of atoms, then of kinds.
+/// Returns colours as sRGB words, red lowest: of atoms, then of kinds of patch.
 std::vector<std::uint32_t> color_words(const PageScheme& scheme) {
   std::vector<std::uint32_t> words;
   words.reserve(scheme.colors.size() + 3);
@@ -113,7 +113,7 @@ Tables::Tables(const PageFigure& figure) : figure_(figure), probe_(probe_of(figu
     balls_.emplace_back(rounded(glm::vec3(ball.center - frame_.pivot), kColorRounding),
                         static_cast<float>(ball.radius));
   find_surfaces(objects);
-  // What planes cut is packed whole: the points of hidden atoms, too, tell what is solid.
+  // A surface that planes cut is packed completely, because points of hidden atoms determine what is solid.
   if (figure.surface) add_surface(*figure.surface, has_cuts(figure), figure.has_own_colors ? kHasOwnColors : 0);
   for (const PageObject& object : figure.extras) {
     if (object.surface)
@@ -178,7 +178,7 @@ void Tables::add_map() {
   map_atoms_ = map_.size();
   map_.insert(map_.end(), has_color_.begin(), has_color_.end());
   map_values_ = map_.size();
-  // Finer than colours can be told apart.
+  // These steps are finer than visible differences of colours.
   const auto step = static_cast<float>(std::max((scale.range[1] - scale.range[0]) / kMapSteps, 1e-30));
   map_.reserve(map_.size() + paint_->grid.values().size());
   for (const float value : paint_->grid.values()) add(rounded(value, step));
@@ -196,7 +196,7 @@ nlohmann::json Tables::map() const {
     axes.push_back(first[axis]);
   }
   const auto& [low, high] = paint.scale.range;
-  // Where all numbers are equal they have the colour in the middle.
+  // If all numbers are equal, they have the colour in the middle.
   const double share = high > low ? 1.0 / (high - low) : 0.0;
   return {{"axes", axes},
           {"size", grid.size},
@@ -204,7 +204,7 @@ nlohmann::json Tables::map() const {
           {"parts", {3 * kMapColors, map_atoms_, map_values_}}};
 }
 
-/// whole: with what touches hidden atoms only. place: of the primitives, as kIsBeside and others say.
+/// Adds a surface. whole: true to include patches that touch hidden atoms only. place: the flags of its primitives.
 void Tables::add_surface(const SurfaceObject& object, bool whole, std::uint32_t place) {
   add_records(pack_scene(object.surface, whole ? Coloring() : object.coloring, frame_), place);
   if (object.coloring.volume) paint_ = object.coloring.volume;
@@ -218,14 +218,14 @@ void Tables::add_surface(const SurfaceObject& object, bool whole, std::uint32_t 
 void Tables::add_shapes(const ColoredShapes& shapes) {
   RayCastPack extras;
   pack_shapes(shapes.shapes, shapes.coloring, frame_, placement_.slack, extras);
-  // A sphere of its own is told from the patch of an atom by its index.
+  // The index distinguishes a separate sphere from the patch of an atom.
   add_records(std::move(extras), kShapeIndex);
   std::vector<std::uint32_t> all(shapes.coloring.atom.size());
   for (std::uint32_t n = 0; n < all.size(); ++n) all[n] = n;
   add_atoms(shapes.coloring, all);
 }
 
-/// Behind those that are there.
+/// Appends records after those that exist.
 void Tables::add_records(RayCastPack more, std::uint32_t place) {
   const auto first_row = static_cast<std::uint32_t>(scene_.rows.size());
   const std::uint32_t first_atom = atom_count();
@@ -237,7 +237,7 @@ void Tables::add_records(RayCastPack more, std::uint32_t place) {
     const std::uint32_t first = primitive.first_row, kind = primitive.kind;
     if (kind == ray_cast::kTriangle)
       for (std::uint32_t corner = 3; corner < 6; ++corner) rename(first + corner);
-    if (kind == ray_cast::kConcave)  // whose contacts are counted where others have an atom
+    if (kind == ray_cast::kConcave)  // its `atom` is the number of contacts
       for (std::uint32_t n = 1 + primitive.plane_count; n < row_count(primitive); ++n) rename(first + n);
     else
       primitive.atom += first_atom;
@@ -262,7 +262,7 @@ void Tables::add_atoms(const Coloring& coloring, std::span<const std::uint32_t> 
   some_hidden_ = some_hidden_ || coloring.hides_some();
 }
 
-/// What no page asks for is 0: it depends on a camera, or decides between points at one depth.
+/// Rounds the tables, and clears numbers that depend on a camera or decide between points at one depth.
 void Tables::round_tables() {
   for (ray_cast::Primitive& primitive : scene_.primitives) {
     const bool is_concave = primitive.kind == ray_cast::kConcave, is_triangle = primitive.kind == ray_cast::kTriangle;
@@ -294,7 +294,7 @@ void Tables::check_size(std::size_t texels, const char* what) const {
 
 namespace {
 
-constexpr double kTurnSteps = 1 << 18;  // of angles, in a radian
+constexpr double kTurnSteps = 1 << 18;  // steps of angles per radian
 
 class RowPredictor {
  public:

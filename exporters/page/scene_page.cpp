@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Says in words and colours what a page shows beside the patches, and draws its still picture.
+// Writes the texts and colours of a page in addition to the patches, and draws its still picture.
 #include "exporters/page/scene_page.h"
 
 #include "core/base/system_file.h"
@@ -20,7 +20,7 @@ Look page_look(Look look) {
   return look;
 }
 
-/// The picture that readers see whose browser cannot draw the figure: of at most 720 pixels.
+/// Draws the picture for readers whose browser cannot draw the figure, with at most 720 pixels per side.
 Framebuffer small_picture(std::span<const PictureObject> objects, const Camera& camera, glm::ivec2 size,
                           const Look& look) {
   constexpr int kSide = 720, kSamples = 9;
@@ -63,8 +63,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Molecule& molecu
   return facts;
 }
 
-/// Colours of one frame. Where it has none of this scheme its points have those that they have already. parts: the
-/// figure's colours, in the order of its parts; recolored: makes the same of the scheme.
+/// Returns the colours of one frame by a scheme; points without a colour in it keep those that they have. parts: the
+/// figure's colours, in the order of its parts; recolored: makes the same colours by the scheme.
 PageScheme scheme_at(const OtherColors& other, const std::vector<const Coloring*>& parts,
                      const std::function<std::vector<Coloring>()>& recolored) {
   PageScheme made{other.name, other.key, {}, {}};
@@ -83,8 +83,7 @@ PageScheme scheme_at(const OtherColors& other, const std::vector<const Coloring*
 
 bool is_cut_or_seen_through(const PictureObject& object) { return object.surface && needs_layers(object); }
 
-/// Where the objects of a picture stand in a page. Throws RequestError for two that are cut or seen through, and for
-/// probes that differ.
+/// Assigns the objects of a picture to the parts of a page. Throws RequestError for two with layers or other probes.
 void place_objects(const std::vector<PictureObject>& objects, const SurfaceObject& whole, const FigureExtras& extras,
                    const FigureRequest& request, PageFigure& shown) {
   const auto refuse = [](const char* why) {
@@ -124,7 +123,7 @@ void place_objects(const std::vector<PictureObject>& objects, const SurfaceObjec
     shown.clip = object->clip;
     shown.cap = object->cap;
     shown.thickens = object->thickens;
-    // Views say how the molecule's surface is cut.
+    // Views determine the cuts of the molecule's surface.
     if (made.surface != &whole)
       for (PageView& view : shown.views) {
         view.clip = object->clip;
@@ -145,7 +144,7 @@ void add_schemes(const std::vector<OtherColors>& others, const Figure& figure, c
   std::vector<const Coloring*> own;
   for (const PageObject& part : parts) own.push_back(&coloring_of(part));
   FigureExtras extras = figure.extras;
-  // What is the n-th object here was so there.
+  // The n-th object of `extras` corresponds to the n-th object of the figure.
   const auto there = [&](const PageObject& part) -> const Coloring& {
     if (part.shapes == &figure.extras.shapes) return extras.shapes.coloring;
     for (std::size_t n = 0; n < extras.objects.size(); ++n) {
@@ -211,7 +210,7 @@ std::vector<OtherColors> other_colors(const Structure& structure, const ColorSch
       color_atoms(structure, scheme);
       others.push_back({word, std::move(scheme), std::move(key)});
     } catch (const InputError&) {
-      // This molecule has no such numbers.
+      // the molecule does not have the numbers of this scheme
     }
   }
   return others;
@@ -234,7 +233,7 @@ PackedFrame scene_frame(const Scene& scene, const Figure& figure, const SurfaceO
   shown.moment = frame.moment;
   shown.origin = frame.origin;
   shown.size = scene.picture.size();
-  // Colours by a scale are those of its legend, so that a scheme may have a look of its own.
+  // Colours by a scale must agree with the legend, so a scheme may have its own look.
   const auto look_by = [&](ColorScheme scheme) {
     scheme.opacities = scene.molecule.color.opacities;
     return page_look(look_of(scene.look, shown.size, scene.image.background,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a scene and its figure to the page that shows them.
+// Makes the page of a scene and its figure.
 #pragma once
 
 #include "core/camera/camera.h"
@@ -17,10 +17,10 @@ namespace meniscus::page {
 /// Makes a file of a picture for readers whose browser cannot draw the figure.
 using EncodeStill = std::function<StillPicture(const Framebuffer& drawn, const Look& look)>;
 
-/// As PNG: larger than JPEG, but made without a library for it.
+/// Encodes a picture as PNG, which is larger than JPEG but needs no library.
 StillPicture png_still(const Framebuffer& drawn, const Look& look);
 
-/// Before anything is computed. Throws RequestError for what a page cannot show though the scene has it.
+/// Checks a scene before anything is computed. Throws RequestError for settings that pages cannot show.
 void check_scene(const Scene& scene);
 
 /// Colours that readers can choose instead of the figure's, of the molecule or of all frames of a run.
@@ -30,36 +30,36 @@ struct OtherColors {
   ColorKey key;
 };
 
-/// Those schemes that need nothing but the file. structure: with all atoms that any frame may have. measure: takes from
-/// all frames what the colours of a scheme mean in each; nothing: there is one frame.
+/// Returns the schemes that need only the file. structure: all atoms that any frame may have. measure: finds the
+/// meaning of a scheme's colours in all frames; nothing: there is one frame.
 std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& requested,
                                       const std::function<void(ColorScheme&)>& measure = {});
 
-/// What a page has of a scene at one frame, beside the figure.
+/// The data of a page at one frame, in addition to the figure.
 struct SceneFrame {
   Camera camera;
   std::vector<PageView> views;
   ColorKey key;
   std::vector<OtherColors> others;
-  std::string moment;  ///< as in PageFigure, like the next
+  std::string moment;  ///< see PageFigure
   std::optional<glm::dvec3> origin{};
-  std::vector<std::pair<std::string, std::string>> facts{};  ///< of the run, behind those of the figure
+  std::vector<std::pair<std::string, std::string>> facts{};  ///< facts of the run, which follow the figure's facts
 };
 
-/// A figure as a page has it. scene: what the figure was made of, its selections settled. encode: nothing: no still
-/// picture. Throws as pack_frame() and picture_objects() do.
+/// Returns the frame of a page with a figure. scene: the scene of the figure, with resolved selections. encode:
+/// nothing: no still picture. Throws the errors of pack_frame() and picture_objects().
 PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& frame, const EncodeStill& encode);
 
-/// The same of a figure whose surface is apart from it, where it stands, one copy.
+/// Returns the frame of a figure whose surface is passed separately, as one copy in its final place.
 PackedFrame scene_frame(const Scene& scene, const Figure& figure, const SurfaceObject& surface, const SceneFrame& frame,
                         const EncodeStill& encode, Packing packing);
 
-/// The page of a scene, as `meniscus export page` makes it but for its still picture, a PNG. scene: complete(). On the
-/// CPU. Throws RequestError as check_scene() does and for a run of frames, else what reading and computing throw.
+/// Returns the page of a scene like `meniscus export page`, but with a PNG as still picture. scene: complete().
+/// Computes on the CPU. Throws RequestError like check_scene() and for a run, and the errors of reading and computing.
 std::string scene_page(const Scene& scene);
 
-/// The page of a surface that no scene made, with the look of one. colors: a colour an atom. structure: names the atoms
-/// that readers pick, in the same order, and has other colours for them; nullptr: they are counted.
+/// Returns the page of a surface that was not made from a scene, with the look of one. colors: one per atom. structure:
+/// the names and other colours of the same atoms, in the same order; nullptr: atoms have numbers.
 std::string surface_page(const Surface& surface, const Coloring& colors, const Structure* structure, const Scene& look,
                          const Camera& camera, const EncodeStill& encode);
 

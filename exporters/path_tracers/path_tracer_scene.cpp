@@ -157,7 +157,7 @@ struct TrianglePaint {
   std::size_t first_cap;           ///< this triangle and all later ones are caps
   std::optional<glm::vec3> color;  ///< colour of caps, sRGB; empty: the colours of atoms
 
-  /// True if a volume map colours triangle `t`.
+  /// Returns true if a volume map colours triangle `t`.
   bool by_map(std::size_t t) const { return t < first_cap && coloring.by_volume(mesh.atom[t]); }
   /// Returns the colour of triangle `t` in linear light if no map colours it.
   glm::vec3 operator()(std::size_t t) const {
@@ -251,8 +251,7 @@ std::vector<SceneMesh> split(const std::vector<SceneMesh>& meshes) {
   return parts;
 }
 
-/// Writes a mesh as PLY (G. Turk 1994): positions, normals and, on request, colours as floats r, g, b, which Mitsuba
-/// reads as "vertex_color".
+/// Writes a mesh as PLY (G. Turk 1994): positions, normals, and perhaps colours r, g, b for Mitsuba's "vertex_color".
 void write_mesh(OutputFile& file, const SceneMesh& mesh, bool with_colors) {
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.size());
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) header += fmt::format("property float {}\n", name);
@@ -285,7 +284,7 @@ SceneReport write_scene(const PathTracerScene& given, const SceneTarget& target)
     report.files.push_back(target.folder / (target.name + ending));
     return output.file(target.name + ending);
   };
-  const bool has_colors = target.renderer == Renderer::mitsuba;  // of vertices
+  const bool has_colors = target.renderer == Renderer::mitsuba;  // colours of vertices
   std::size_t meshes = 0;
   for (SceneItem& item : scene.items) {
     if (!has_colors) item.meshes = split(item.meshes);

@@ -25,7 +25,7 @@ struct Paint {
 /// edges, as in the view, and normals are those of the surface.
 struct SceneMesh {
   std::vector<glm::vec3> positions;                     ///< Å, from the scene's origin
-  std::vector<glm::vec3> normals;                       ///< of unit length, towards the solvent
+  std::vector<glm::vec3> normals;                       ///< unit vectors towards the solvent
   std::vector<glm::vec3> colors;                        ///< linear light
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the solvent
   float opacity = 1.0f;
@@ -53,7 +53,7 @@ struct SceneItem {
   std::vector<RigidMotion> copies{RigidMotion{}};  ///< motions of coordinates relative to the scene's origin
   bool is_surface = true;                          ///< true if it has the scene's material; false if it is matte
 
-  /// True if there is a single copy, which is not moved.
+  /// Returns true if there is a single copy, which is not moved.
   bool is_placed_once() const {
     return copies.size() == 1 && copies[0].rotation == glm::dmat3(1.0) && copies[0].translation == glm::dvec3(0.0);
   }
@@ -95,7 +95,7 @@ struct DistantLight {
 /// A disc with uniform radiance that faces the scene.
 struct Softbox {
   glm::dvec3 center{0.0};     ///< Å, from the scene's origin
-  glm::dvec3 direction{0.0};  ///< of unit length, towards the scene
+  glm::dvec3 direction{0.0};  ///< unit vector towards the scene
   double radius = 0.0;        ///< Å
   glm::vec3 radiance{0.0f};
 };
@@ -178,8 +178,7 @@ struct SceneReport {
   std::size_t triangles = 0, spheres = 0, cylinders = 0;  ///< numbers without copies
 };
 
-/// Writes <name>.xml or <name>.pbrt, and <name>_1.ply and so on, all or none. Throws RequestError if the scene shows
-/// nothing, and OutputError.
+/// Writes <name>.xml or .pbrt, and <name>_1.ply etc., all or none. Throws RequestError for no items, OutputError.
 SceneReport write_scene(const PathTracerScene& scene, const SceneTarget& target);
 
 /// Splits a mesh into meshes of one colour, in the order in which colours occur. Colours are rounded to 8 bits per

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a scene for pbrt-v4: the camera, then the world with lights, materials and objects, those with copies as
-// instances.
+// Writes a scene for pbrt-v4: the camera, then lights, materials and objects, those with copies as instances.
 #include "exporters/path_tracers/path_tracer_scene.h"
 
 #include <numbers>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes settings, camera, style, buffers and .ini of a scene, and the include that declares the surface in a user's
-// own scene.
+// Writes settings, camera, style, buffers and .ini of a scene, and the include for a user's own scene.
 #include "exporters/povray/povray_scene.h"
 
 #include <set>
@@ -44,8 +43,7 @@ void append_one_camera(SceneText& out, const CameraNumbers& camera) {
   declare("Meniscus_Orthographic").count(camera.orthographic ? 1 : 0).literal(";\n");
 }
 
-// Declares the array <name>_List with an element for each frame, and <name> as the element of the frame that is
-// rendered.
+// Declares the array <name>_List with an element per frame, and <name> as the element of the current frame.
 void append_list(SceneText& out, std::string_view name, const auto& of_frames, const auto& append) {
   out.literal("#declare ").literal(name).literal("_List = array[").count(of_frames.size()).literal("] {\n");
   for (std::size_t n = 0; n < of_frames.size(); ++n) {
@@ -328,7 +326,7 @@ namespace {
 
 using Names = std::set<std::string_view>;
 
-/// True for the names that the include is meant to declare, and for the one that marks a scene of the user's own.
+/// Returns true for the names that the include declares, and for the one that marks a scene of the user's own.
 bool is_kept(std::string_view name) {
   return name == "Meniscus_Own_Scene" || name == "Meniscus_Surface" || name == "Meniscus_Shapes" ||
          name.starts_with("Meniscus_Object_");

@@ -213,8 +213,7 @@ std::string palette_check(std::uint32_t palette) {
   return out.text();
 }
 
-// Returns the file of colours of one frame. Its checks ensure that the file belongs to the run, and that the geometry
-// belongs to the same frame.
+// Returns one frame's file of colours, with checks that it belongs to the run, and the geometry to the frame.
 SceneText frame_colors_text(const std::vector<SceneColor>& colors, const SceneOptions& options, std::uint32_t of_run,
                             std::uint32_t of_frame) {
   SceneText out;

@@ -50,7 +50,7 @@ struct SceneParts {
 struct SceneStyle {
   const std::vector<SceneColor>* colors = nullptr;  ///< nullptr: each frame has a file with colours of its own
   const VolumePaint* map = nullptr;                 ///< the map of colours with SceneColor::by_map, or nullptr
-  std::vector<MaterialRequest> materials = {};      ///< of objects: SceneColor::finish n is the n-th, from 1
+  std::vector<MaterialRequest> materials = {};      ///< objects' materials: SceneColor::finish n is the n-th, from 1
 };
 
 /// Returns the text of <name>.pov. cameras: one, or one per frame. frames: nullptr for a single surface.
@@ -58,8 +58,7 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
                       const SceneParts& parts, const SceneFrames* frames = nullptr);
 /// Returns the text of <name>_style.inc. origin: the origin of the scene's coordinates, in Å.
 std::string style_text(const SceneStyle& style, const SceneOptions& options, const glm::dvec3& origin);
-/// Returns lists with an entry for each colour, for <name>_style.inc or <name>_colors_#####.inc. meaning: the key whose
-/// names become comments.
+/// Returns lists with an entry for each colour. meaning: the key whose names become comments.
 std::string colors_text(const std::vector<SceneColor>& colors, const std::optional<ColorKey>& meaning);
 /// Returns the text of <name>_aov.inc. colors: SceneStyle::colors. e: the box of everything shown, in Å.
 std::string buffer_text(const std::vector<SceneColor>* colors, const SceneOptions& options, const Box& e,
@@ -89,8 +88,7 @@ struct Shown {
 /// Returns the materials of objects, in the order of SceneColor::finish.
 std::vector<MaterialRequest> materials_of(std::span<const SceneObject> objects);
 
-/// The geometry of everything that one picture shows. It refers to the arguments of its constructor, which must outlive
-/// it.
+/// The geometry of one picture. It refers to the arguments of its constructor, which must outlive it.
 class SceneContent {
  public:
   /// Adds all colours to `table`, after those that it has. origin: the origin of the scene's coordinates, in Å. Throws
@@ -114,8 +112,7 @@ class SceneContent {
 
   /// A function that creates the file for a part, such as "geometry", "caps", "shapes" or "object_1".
   using BeginFile = std::function<OutputFile&(const std::string& part)>;
-  /// Writes the files that the main file includes according to `parts`. head: passed to Geometry::write() of the
-  /// surface.
+  /// Writes the files that the main file includes according to `parts`. head: see Geometry::write().
   void write(const SceneParts& parts, const BeginFile& begin_file, std::string_view head = {}) const;
 
  private:
@@ -179,8 +176,7 @@ struct Run {
   std::vector<MaterialRequest> materials = {};
   std::shared_ptr<const VolumePaint> map = {};  ///< the volume map that colours points in all frames, or nullptr
   bool maps_change = false;  ///< true if each frame has a map of its own; `colors` must be empty then
-  /// One per frame, with a background and shadows that replace the values of the options. Empty if all frames have the
-  /// values of the options.
+  /// A background and shadows per frame, which replace the options' values; empty: the values of the options.
   std::vector<FrameLook> looks = {};
 };
 

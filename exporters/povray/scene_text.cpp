@@ -205,8 +205,7 @@ namespace {
 
 constexpr std::size_t kFlushValues = std::size_t{1} << 18;
 constexpr std::size_t kMostDensityPoints = 65'535;  // per axis
-/// The number of steps of a colour map. POV-Ray's colour maps have at most 256 entries and interpolate linear light
-/// between them.
+/// The number of steps of a colour map; POV-Ray's have at most 256 entries, and interpolate linear light.
 constexpr std::size_t kMapSteps = 200;
 
 /// Appends the lowest `count` bytes of a value in big-endian order.

@@ -30,7 +30,7 @@ namespace meniscus {
 ///  buffers.inc   the buffers, after the extent of the molecule;
 ///  settings.ini  settings after the sizes: NAME, and PICTURE, the text between the name and the number of a picture;
 ///  film.ini      settings of a run, after settings.ini: NAME, COUNT of frames;
-///  story.pov, story.ini  a film (story.h): NAME, WIDTH, HEIGHT, COUNT, RATE.
+///  story.pov, story.ini  a film (povray_scene.h): NAME, WIDTH, HEIGHT, COUNT, RATE.
 std::span<const TemplateFile> povray_templates();
 
 }  // namespace meniscus
@@ -146,7 +146,7 @@ class ColorTable {
   std::uint32_t number(SceneColor color);
   /// Returns each colour once, in the order of the numbers.
   const std::vector<SceneColor>& colors() const { return colors_; }
-  /// True if the opacity of some colour is less than 1.
+  /// Returns true if the opacity of some colour is less than 1.
   bool is_translucent() const;
 
  private:
@@ -160,8 +160,7 @@ struct ObjectStyle {
   std::uint32_t finish = 0;  ///< SceneColor::finish
 };
 
-/// Returns the colour of the points of an atom. `color` replaces the atom's colour, and a volume map then does not
-/// apply.
+/// Returns the colour of an atom's points. `color` replaces it, and a volume map then does not apply.
 SceneColor scene_color(const Coloring& coloring, std::uint32_t atom, const ObjectStyle& style,
                        const std::optional<glm::vec3>& color = {});
 

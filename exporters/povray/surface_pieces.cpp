@@ -184,8 +184,7 @@ void Geometry::append_offset_textures(SceneText& out, std::size_t object, const 
   out.literal("}\n");
 }
 
-// POV-Ray multiplies row vectors by matrices: the first three rows are the images of the axes. Scene coordinates are
-// relative to the origin.
+// POV-Ray multiplies row vectors by matrices, whose first rows are the images of the axes, relative to the origin.
 void Geometry::append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const {
   out.literal("object{object_").count(object + 1);
   if (!is_identity(motion)) {
@@ -415,8 +414,7 @@ void PatchObjects::part_cells(SceneText& out, const ConcavePatch& patch, std::ui
 
 namespace {
 
-// Extreme points this far outside of an arc or a plane are still included: the box may be too large, but never too
-// small.
+// Extreme points this far outside of an arc or a plane are included: a box may be too large, never too small.
 constexpr double kGenerous = 1e-9;
 
 void include_face(Box& box, const Surface& surface, const Face& face) {

@@ -22,8 +22,7 @@ struct Caps {
   std::vector<std::uint32_t> color;  ///< per triangle: index into the colours of the scene
 };
 
-/// Returns the caps with their colours, which are added to the table. Opacities are those of the atoms. objects: the
-/// objects that were cut.
+/// Returns caps with their colours, added to the table, and the atoms' opacities. objects: those that were cut.
 Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style,
                   const ObjectStyle& object_style, ColorTable& table);
 
@@ -35,8 +34,7 @@ void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const
 /// refers to the given objects, which must outlive it.
 class CutObjects {
  public:
-  /// camera and options determine the tolerance of the caps (make_caps()). Throws what section_caps() and merged()
-  /// throw.
+  /// camera, options: they determine the tolerance of caps. Throws the errors of section_caps() and merged().
   CutObjects(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera,
              const SceneOptions& options);
   CutObjects(const CutObjects&) = delete;
@@ -86,7 +84,7 @@ class Geometry {
   /// Returns the number of primitives that POV-Ray keeps in memory: copies of a union share nothing there, and a
   /// declared union counts once more.
   std::size_t primitives_in_memory() const;
-  /// True if the text of write() is a single item. POV-Ray warns about a union of a single item.
+  /// Returns true if the text of write() is a single item. POV-Ray warns about a union of a single item.
   bool is_one_item() const;
 
   /// Writes the pieces. If declares_objects() is true, it writes `#local object_N = union {...}` for each object that
@@ -94,7 +92,7 @@ class Geometry {
   /// the top.
   void write(OutputFile& file, std::string_view head = {}) const;
 
-  /// True if objects are declared under names: there are several, or one is copied or moved.
+  /// Returns true if objects are declared under names: there are several, or one is copied or moved.
   bool declares_objects() const;
 
   /// Returns the JSON text that maps object names of the scene to names of the molecule:
@@ -106,8 +104,8 @@ class Geometry {
   void write_pieces(OutputFile& file, SceneText& out, std::size_t object) const;
   /// Appends a comment with the kind and the atoms of a piece, if names were given.
   void append_comment(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
-  /// True if the volume map is sampled at an offset from the surface. Each patch then has a texture of its own that
-  /// moves its points to where the map is sampled.
+  /// Returns true if the volume map is sampled at an offset from the surface. Each patch then has its own texture,
+  /// which moves its points to where the map is sampled.
   bool has_offset_textures(std::size_t object, const ColoredPiece& piece) const;
   void append_offset_textures(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
   void append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const;
@@ -138,7 +136,7 @@ class PatchObjects {
                std::span<const ClipPlane> clip = {})
       : surface_(surface), palette_(palette), origin_(origin), clip_(clip) {}
 
-  /// True if the planes cut away the whole patch.
+  /// Returns true if the planes cut away the whole patch.
   bool is_cut_away(const ColoredPiece& piece) const;
 
   /// Appends one line with the primitive of the piece, which is the part of a patch with one colour and visibility. The
@@ -152,8 +150,7 @@ class PatchObjects {
   void concave(SceneText& out, const ConcavePatch& patch, std::uint32_t part, std::string_view cuts) const;
   void visibility_sphere(SceneText& out, const ToroidalPatch& patch) const;
   void wedge(SceneText& out, const ToroidalPatch& patch) const;
-  /// Appends the half-space of the points that are nearer to the atom of this part; nothing if both atoms are of the
-  /// part.
+  /// Appends the half-space of points nearer to the atom of this part; nothing if both atoms are of the part.
   void part_half(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const;
   /// Appends the cells of the points that are nearest to an atom of this part; nothing if all atoms are of the part.
   void part_cells(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const;

@@ -57,8 +57,7 @@ struct Node {
 using Lower = Node<kLowerBits, const Block*>;
 using Upper = Node<kUpperBits, Lower>;
 
-/// Returns the place of the child that contains a voxel, in a node of 2^bits children along each axis. edge: the edge
-/// of a child in voxels.
+/// Returns the place of a voxel's child in a node of 2^bits children per axis. edge: a child's edge in voxels.
 std::uint32_t place_in_node(const glm::ivec3& voxel, int edge, int bits) {
   std::uint32_t place = 0;
   for (int k = 0; k < 3; ++k)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Adds an exporter to a copy of the tree, as a folder of exporters and one command, and uses it: help, completion, manual,
-# scenes, selections and runs follow from its row. Ends with `cases N failures M`.
+# Adds an exporter to a copy of the tree, as a folder of exporters and one command, and uses it: help, completion,
+# manual, scenes, selections and runs follow from its row. Ends with `cases N failures M`.
 set -euo pipefail
 source "$(dirname "$0")/copied_tree.sh"
 git init -q . && git add -A
@@ -86,7 +86,7 @@ git add -A
 build meniscus
 
 printf '1 0 0 1.7\n3 0 0 1.5\n' >two.xyzr
-# The drawing of the folders lacks the new one until Graphviz draws it again; the order of folders is another test.
+# The drawing of the folders lacks the new one until Graphviz draws it again; another test checks the order of folders.
 expect "its place among the folders" python3 tests/docs/include_graph_test.py IncludeGraph.test_every_file_has_its_place \
   IncludeGraph.test_no_arrow_runs_back IncludeGraph.test_no_files_include_each_other
 expect "the file" "$program" export balls two.xyzr -o two.balls -q

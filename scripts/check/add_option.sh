@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Adds an option to a copy of the tree, in three files, and uses it through every door: the command line and its help,
-# shell completion, scene files and their schema, the preview, bundles, and the library. Ends with `cases N failures M`.
+# Adds an option to a copy of the tree, in three files, and uses it in the command line and its help, shell completion,
+# scene files and their schema, the preview, bundles, and the library. Ends with `cases N failures M`.
 set -euo pipefail
 source "$(dirname "$0")/copied_tree.sh"
 

@@ -20,7 +20,7 @@ LIMIT_DEGREES = 2.0
 
 
 def read(path):
-    """All channels of a picture as float, and their names."""
+    """Returns all channels of a picture as float, and their names."""
     picture = oiio.ImageInput.open(path)
     if picture is None:
         sys.exit(f"compare_pictures: error: {path}: {oiio.geterror()}")
@@ -31,7 +31,7 @@ def read(path):
 
 
 def channels(pixels, names, *wanted):
-    """The named channels, however the writer prefixes them with a layer."""
+    """Returns the named channels, whatever layer the writer put before their names."""
     found = []
     for name in wanted:
         matches = [n for n, full in enumerate(names) if full == name or full.endswith("." + name)]
@@ -49,7 +49,7 @@ def ray_cast_normals(path):
 
 def povray_normals(path):
     pixels, _ = read(path)
-    # rgb = asin(normal) / pi + 1/2; see the export's _aov.inc.
+    # The export's _aov.inc has rgb = asin(normal) / pi + 1/2.
     return numpy.sin((pixels[..., :3] - 0.5) * numpy.pi), pixels[..., 3] > 0.5
 
 
@@ -60,7 +60,7 @@ def blender_normals(path):
 
 
 def differing_share(a, b):
-    """Share of the pixels that either picture shows, and how many of them differ in coverage alone."""
+    """Returns the share of the pixels of either picture that differ, and the number that differ in coverage only."""
     (normal_a, hit_a), (normal_b, hit_b) = a, b
     if normal_a.shape != normal_b.shape:
         sys.exit(f"compare_pictures: error: pictures of {normal_a.shape[:2]} and {normal_b.shape[:2]} pixels")

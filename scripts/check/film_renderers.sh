@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Scenes for path tracers in the programs they are for, as far as registries have them: Mitsuba 3 of PyPI, in a virtual
+# Reads scenes for path tracers in their programs, as far as registries have them: Mitsuba 3 of PyPI, in a virtual
 # environment below build/film_renderers, and pbrt4 of crates.io, which reads scenes for pbrt but does not render them
 # (both are kept). The last line says "cases N failures M".
 #
@@ -9,7 +9,7 @@ cd "$(dirname "$0")/../.."
 program=$(realpath "${1:?usage: scripts/check/film_renderers.sh PROGRAM}")
 home=$PWD/build/film_renderers
 tests=$PWD/tests/export/path_tracers
-# Not a package that scripts/packages.sh asks for: Debian's Rust is older than what the crate needs.
+# scripts/packages.sh does not install cargo, because Debian's Rust is older than the crate requires.
 command -v cargo >/dev/null || { echo "film_renderers.sh: cargo is not installed; it brings a reader of pbrt's files" >&2; exit 1; }
 
 if [[ ! -x $home/mitsuba/bin/mitsuba ]]; then
@@ -26,7 +26,7 @@ fi
 
 cases=0
 failures=0
-# count PYTHON SCRIPT WORDS...: runs a test whose last line says how it went.
+# count PYTHON SCRIPT WORDS...: runs a test, and adds up the numbers of its last line.
 count() {
   local last
   last=$("$1" -B "$tests/$2" "$program" "${@:3}" 2>&1 | tee /dev/stderr | tail -n 1 || true)

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Checks that every file includes what it needs: compiles each by itself and without precompiled headers, as far as its
-# syntax. The last line says how many were tried and failed.
+# Checks that every file includes what it needs: checks the syntax of each separately, without precompiled headers. The
+# last line has the numbers of files and of failures.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=build/plain
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_PRECOMPILED=OFF \
   -DMENISCUS_UNITY=OFF >/dev/null
 
-# A line of tab-separated words: the file, and how it is compiled.
+# commands: prints a line of words separated by tabs for each file: the file, and its compile command.
 commands() {
   /usr/bin/python3 - "$build/compile_commands.json" "$PWD" "$@" <<'PYTHON'
 import json, shlex, sys

@@ -20,8 +20,8 @@ SOUND = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "menisc
 
 
 def as_compiled():
-    """The command that compiles the file, from the name of the compiler on. A file that only other builds compile, such as
-    core/surface/gpu_engine_without_gl.cpp, is compiled as its neighbours are: clang-tidy does the same."""
+    """Returns the command that compiles the file, from the compiler's name on. A file that only other builds compile,
+    such as core/surface/gpu_engine_without_gl.cpp, gets that of a neighbour, as clang-tidy does."""
     entries = {os.path.relpath(entry["file"], ROOT): entry
                for entry in json.loads(Path(BUILD, "compile_commands.json").read_text())}
     entry = entries.get(FILE) or next(

@@ -17,15 +17,15 @@ FOLDERS = ("core", "app", "exporters")
 TOKEN = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(\w*)\((.*?)\)\1"|\'(?:\\.|[^\'\\\n])\'|"((?:\\.|[^"\\\n])*)"|#include[^\n]*|[A-Za-z_]\w*'
     r'|\d[\w\'.]*|\s+|.', re.S)
-#: What makes the statement around a text one that says it to people.
+#: Words in the statement around a text that mean that it is shown to people.
 SAYS = re.compile(r"throw|return|fail|fault|refuse|warn|note|say|log_line|complain|trouble|error|why|reason|notes|hints|advice"
                   r"|Error|emplace_back|push_back|missing|advice", re.I)
-#: What a text of a generated file or a table of help begins with.
+#: Beginnings of the texts of generated files and of tables of help.
 GENERATED = re.compile(r"\s*(<|#|//|\$|\{|ply\\n|[a-z]+ \\\"|%)")
 
 
 def texts_of_cpp(source):
-    """(line, text, identifiers before it in the statement) of each text; texts that touch are one."""
+    """Yields (line, text, identifiers before it in the statement) for each text; adjacent texts are joined."""
     line, before, joined = 1, [], None
     for match in TOKEN.finditer(source):
         token = match.group(0)
@@ -56,7 +56,7 @@ def messages_of_cpp(source):
 
 
 def as_text(node):
-    """The text of a string, an f-string with {} for its values, or a sum of them; None of anything else."""
+    """Returns the text of a string, an f-string with {} for its values, or a sum of them; None for anything else."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return node.value
     if isinstance(node, ast.JoinedStr):
@@ -81,7 +81,7 @@ def messages_of_python(source):
 
 
 def messages(folders=FOLDERS):
-    """(path from the root, line, text) of each message, in the order of paths and lines."""
+    """Yields (path from the root, line, text) for each message, in the order of paths and lines."""
     for folder in folders:
         for path in sorted((ROOT / folder).rglob("*")):
             name = path.relative_to(ROOT).as_posix()

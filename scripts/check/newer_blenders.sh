@@ -1,25 +1,25 @@
 #!/usr/bin/env bash
-# Runs all tests of the Blender add-on in newer Blenders than Debian's: the module bpy of PyPI, each version in a virtual
-# environment below build/blenders (1.6 GB each, kept), with the Molecular Nodes that belongs to it. Its Python is the system's or
-# pyenv's where they have it, else uv fetches it. libmeniscus is taken from the program's build. The extension is made of the wheel
-# for linux-x64 in the folder MENISCUS_WHEELS, or of one of that libmeniscus, and used in an empty profile. The last line says
-# "cases N failures M"; before it is a table in Markdown. Exit code 77: a Blender or its Python cannot be fetched.
+# Runs all tests of the Blender add-on in newer Blenders than Debian's: the module bpy of PyPI, each version in a
+# virtual environment below build/blenders (1.6 GB each, kept), with its Molecular Nodes. Its Python is the system's or
+# pyenv's if they have it, else uv fetches it. libmeniscus is taken from the program's build. The extension is made from
+# the wheel for linux-x64 in the folder MENISCUS_WHEELS, or of that libmeniscus, and used in an empty profile. The last
+# line says "cases N failures M", below a table in Markdown. Exit code 77: a Blender or its Python cannot be fetched.
 #
 #   scripts/check/newer_blenders.sh PROGRAM [VERSION...]     versions: 4.2 4.5 5.0 5.1 5.2 5.3 by default; newest: the registry's
-#   MENISCUS_INSIDE="inside_blender inside_shot" ...   these scripts alone
+#   MENISCUS_INSIDE="inside_blender inside_shot" ...   runs only these scripts
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=$(realpath "${1:?usage: scripts/check/newer_blenders.sh PROGRAM [VERSION...]}")
 shift
 versions=("${@:-4.2}")
 (($#)) || versions=(4.2 4.5 5.0 5.1 5.2 5.3)
-# 4.2.12 does not say which databpy it needs; a newer nodebpy breaks 520.2.0.
+# 4.2.12 does not specify its databpy; a newer nodebpy breaks 520.2.0.
 declare -A molecular_nodes=([4.2]="4.2.12 databpy==0.0.14" [4.5]=4.5.11 [5.0]=4.5.11 [5.2]="520.2.0 nodebpy==520.30.0")
 tests=$PWD/tests/export/blender
 addon=$PWD/exporters/blender/addon
 export MENISCUS_LIBRARY=${program%/*}/exporters/bindings/c/libmeniscus.so MENISCUS_PACKAGE=$PWD/exporters/bindings/python/meniscus
 unless_fetched() { "$@" || { echo "cannot be fetched: $*" >&2; exit 77; }; }
-# The libraries of USD and Alembic, which read what Blender writes.
+# The libraries of USD and Alembic read the files that Blender writes.
 export MENISCUS_READERS=$PWD/build/blenders/readers/bin/python
 if [[ ! -x ${MENISCUS_READERS%/*}/uv ]]; then
   /usr/bin/python3 -m venv build/blenders/readers
@@ -64,7 +64,7 @@ for version in "${versions[@]}"; do
     chmod +x "$home/blender"
   fi
   release=$("$home/bin/python" -c "import bpy; print(bpy.app.version_string)" 2>/dev/null | head -n 1)
-  # Checks the extension as an upload, a repository and Install from Disk do.
+  # The extension is checked like an upload, a repository and Install from Disk.
   validator=$(find "$home/lib" -path '*/bl_pkg/cli/blender_ext.py' -print -quit)
   unpacked=$home/extension
   rm -rf "$unpacked" "$home/profile"

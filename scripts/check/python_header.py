@@ -27,7 +27,7 @@ DECLARATION = re.compile(r"typedef enum (?P<enum>\w+) \{(?P<constants>[^}]*)\} \
 
 
 def declarations():
-    """Returns the matches of DECLARATION in the order of the header; ends the program at text that none of them matches."""
+    """Yields the matches of DECLARATION in the order of the header; ends the program at text that does not match."""
     text = re.sub(r"/\*.*?\*/", "", HEADER.read_text(encoding="utf-8"), flags=re.S)
     text = re.sub(r"^[ \t]*#(?:.*\\\n)*.*$", "", text, flags=re.M)
     text = " ".join(re.sub(r'\bMENISCUS_(API|WORDS)\b|extern "C" \{', "", text).split()).removesuffix("}")
@@ -48,7 +48,7 @@ def ctype(declared, classes):
 
 
 def listed(before, items, after, indent):
-    """Returns a list as lines of at most 120 columns, none of which ends within an item."""
+    """Returns a list as lines of at most 120 columns, which are broken between items only."""
     text = before + ", ".join(item.replace(" ", "~") for item in items) + after
     return textwrap.fill(text, 120, subsequent_indent=" " * indent, break_on_hyphens=False).replace("~", " ") + "\n"
 

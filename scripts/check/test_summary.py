@@ -29,7 +29,7 @@ class Skip:
     name: str
     run: str
     reason: str
-    whole: bool = True  # all of the entry, not one case of several
+    whole: bool = True  # false for one case of several
 
 
 @dataclasses.dataclass
@@ -46,7 +46,7 @@ class Run:
 
 
 def reason_of(output):
-    """The last line that says something: what the test printed before it gave up."""
+    """Returns the last meaningful line that the test printed before it ended."""
     said = GTEST_REASON.search(output)
     if said:
         return " ".join(said[1].split())

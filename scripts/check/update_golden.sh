@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes the pictures of tests/data/golden anew. Look at each before you commit it. Usage: update_golden.sh [build folder]
+# Writes the pictures of tests/data/golden again; look at each. Usage: update_golden.sh [build folder]
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${1:-$root/build}

@@ -1,21 +1,21 @@
-# The libraries that Meniscus is built from. libmeniscus needs GLM, fmt and TBB; each other part of it needs a library of
-# its own, and without that library its calls report that they are not available. The programs need more; some of their
-# parts can be left out.
+# The libraries that Meniscus is built from. libmeniscus needs GLM, fmt and TBB. Other parts of it need further
+# libraries; without them its calls report that they are not available. The programs need more; some of their parts can
+# be left out.
 option(MENISCUS_APP "Build the programs; OFF: libmeniscus alone, of what is there" ON)
 option(MENISCUS_DROP_INS "Build the programs in the place of MSMS and NanoShaper, which need molecule files and no more" ${MENISCUS_APP})
 option(MENISCUS_PREVIEW "Build `meniscus preview`, with the programs only" ON)
-# Sine, arctangent and the like differ in the last bit from system to system. With one library of them for all
-# (scripts/package/targets.sh: musl's) results have the same bits everywhere.
+# Sine, arctangent and similar functions differ in the last bit from system to system. With one library of them for all
+# systems (musl's in scripts/package/targets.sh), results have the same bits everywhere.
 set(MENISCUS_LIBM "" CACHE FILEPATH "A static library of elementary functions in the place of the system's")
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
-find_package(Threads REQUIRED)  # which a static TBB names without finding it
+find_package(Threads REQUIRED)  # a static TBB names it without finding it
 find_package(TBB REQUIRED)
 find_package(PkgConfig QUIET)
 set(parts "")
 
-# meniscus_part(NAME found WORDS what it does NEEDS what it is made with): whether the part is built: MENISCUS_WITH_NAME is
-# set to ON or OFF, and a line of the summary says why. AUTO, where programs are built, is ON.
+# meniscus_part(NAME found WORDS description NEEDS libraries): sets MENISCUS_WITH_NAME to ON or OFF, and adds a line
+# with the reason to the summary. AUTO means ON where programs are built.
 function(meniscus_part name found)
   cmake_parse_arguments(P "" "WORDS;NEEDS" "" ${ARGN})
   set(MENISCUS_${name} AUTO CACHE STRING "${P_WORDS}, with ${P_NEEDS}: AUTO, ON or OFF")
@@ -45,7 +45,7 @@ function(meniscus_part name found)
   set(parts "${parts}\n--   ${P_WORDS}: ${why}" PARENT_SCOPE)
 endfunction()
 
-# The same of libraries that only pkg-config knows.
+# Finds a library that only pkg-config knows, and sets variable_FOUND.
 macro(meniscus_find_by_pkg_config variable name)
   set(${variable}_FOUND OFF)
   if(PKG_CONFIG_FOUND)
@@ -55,7 +55,7 @@ endmacro()
 
 meniscus_find_by_pkg_config(EPOXY epoxy)
 meniscus_find_by_pkg_config(DEFLATE libdeflate)
-# Its archive where there is one, so that libmeniscus needs no library that its callers may not have.
+# The archive is preferred, so that libmeniscus needs no library that its callers may not have.
 find_library(DEFLATE_ARCHIVE libdeflate.a HINTS ${DEFLATE_LIBRARY_DIRS})
 mark_as_advanced(DEFLATE_ARCHIVE)
 if(NOT DEFLATE_ARCHIVE)
@@ -64,8 +64,8 @@ endif()
 find_package(ZLIB QUIET)
 find_package(nlohmann_json QUIET)
 find_package(Freetype QUIET)
-# gemmi is header-only in Debian 12; its mmCIF parser needs PEGTL (tao-pegtl-dev), which its package does not name. From
-# 0.6 on gemmi has a library, too, and brings its own PEGTL.
+# gemmi is header-only in Debian 12; its mmCIF parser needs PEGTL (tao-pegtl-dev), which its package does not name.
+# Since 0.6 gemmi also has a library, and brings its own PEGTL.
 find_path(GEMMI_INCLUDE_DIR gemmi/cif.hpp)
 find_path(PEGTL_INCLUDE_DIR tao/pegtl.hpp HINTS ${GEMMI_INCLUDE_DIR}/gemmi/third_party)
 find_library(GEMMI_LIBRARY gemmi_cpp)
@@ -85,7 +85,7 @@ set(scenes_FOUND OFF)
 if(MENISCUS_WITH_GEMMI AND MENISCUS_WITH_JSON AND Freetype_FOUND)
   set(scenes_FOUND ON)
 endif()
-# Liberation Sans becomes part of the library, so that letters need no font at run time and are the same on all systems.
+# Liberation Sans becomes part of the library, so that text needs no font at run time and looks the same on all systems.
 find_path(MENISCUS_FONTS LiberationSans-Regular.ttf NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH DOC "Folder of Liberation Sans"
           PATHS /usr/share/fonts/truetype/liberation2 /usr/share/fonts/truetype/liberation /usr/share/fonts/liberation
                 /usr/share/fonts/liberation-sans-fonts)
@@ -114,7 +114,7 @@ if(MENISCUS_APP)
   meniscus_part(IMAGES "${OpenImageIO_FOUND}" WORDS "pictures in other formats than PNG" NEEDS "OpenImageIO")
   meniscus_part(HDF5 "${HDF5_FOUND}" WORDS "trajectories in HDF5" NEEDS "HDF5")
   if(MENISCUS_WITH_IMAGES)
-    # Debian's target names OpenCV's include folder, which its package does not bring.
+    # Debian's target names OpenCV's include folder, which its package does not install.
     set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
   endif()
   set(parts "${parts}\n--   programs: yes")

@@ -1,5 +1,5 @@
-# meniscus_linked(OWN OTHERS target...): what is linked to these targets, directly or through one another: our own
-# libraries, themselves among them, and all else.
+# meniscus_linked(OWN OTHERS target...): lists the libraries that these targets link, directly or indirectly: our own,
+# including the targets, and all others.
 function(meniscus_linked own_result others_result)
   set(rest ${ARGN})
   set(seen "")

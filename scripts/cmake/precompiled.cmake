@@ -1,18 +1,18 @@
-# The large headers of other libraries are compiled once for some folders, not once a file. Nothing else is among them,
-# and no file relies on it: a build with MENISCUS_PRECOMPILED=OFF shows that each includes what it needs.
+# The large headers of other libraries are compiled once for some folders instead of once per file. No other headers are
+# among them, and no file relies on it: a build with MENISCUS_PRECOMPILED=OFF shows that each includes what it needs.
 option(MENISCUS_PRECOMPILED "Compile the large headers of other libraries once" ON)
 
-# For ccache gcc has to say that it read a precompiled header, and clang has to leave the time out of it. Where std::string
-# is precompiled gcc 12 no longer knows it for a system header, and warns of copies that never happen.
+# ccache needs gcc to report a precompiled header, and clang to leave its time out. If std::string is precompiled, gcc
+# 12 does not know that it is from a system header, and warns of copies that never happen.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   set(precompiled_options -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
 else()
   set(precompiled_options "SHELL:-Xclang -fno-pch-timestamp")
 endif()
 
-# meniscus_precompile(HOLDER [SHARED] HEADERS headers... LINK targets... OPTIONS options...): compiles the headers, with
-# the options that a program has which links to these targets; SHARED for what goes into shared libraries, too. A
-# precompiled header fits only where these options are the same.
+# meniscus_precompile(HOLDER [SHARED] HEADERS headers... LINK targets... OPTIONS options...): compiles the headers with
+# the options of a program that links these targets; SHARED if shared libraries use them, too. A precompiled header fits
+# only if these options are the same.
 function(meniscus_precompile holder)
   cmake_parse_arguments(P "SHARED" "" "HEADERS;LINK;OPTIONS" ${ARGN})
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/${holder}.cpp CONTENT "// Holds precompiled headers.\n")
@@ -23,7 +23,7 @@ function(meniscus_precompile holder)
   target_precompile_headers(${holder} PRIVATE ${P_HEADERS})
 endfunction()
 
-# These targets take what is precompiled; where it is not SHARED, they are programs or go into programs only.
+# Makes targets use a precompiled header. If it is not SHARED, they are programs or linked to programs only.
 function(meniscus_take_precompiled holder)
   if(NOT MENISCUS_PRECOMPILED)
     return()
@@ -36,7 +36,7 @@ function(meniscus_take_precompiled holder)
   endforeach()
 endfunction()
 
-# libraries_and_programs(RESULT FOLDER): the targets of a folder and of those below.
+# libraries_and_programs(RESULT FOLDER): returns the targets of a folder and of its subfolders.
 function(libraries_and_programs result folder)
   get_property(found DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   get_property(below DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)

@@ -1,5 +1,5 @@
-# Compiles for another system by zig, whose clang brings the C and C++ libraries of all: scripts/package/targets.sh.
-# MENISCUS_ZIG: the program. MENISCUS_ZIG_TARGET: such as aarch64-linux-gnu.2.28.
+# Compiles for another system by zig, whose clang has the C and C++ libraries of all systems
+# (scripts/package/targets.sh). MENISCUS_ZIG: the program. MENISCUS_ZIG_TARGET: such as aarch64-linux-gnu.2.28.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES MENISCUS_ZIG MENISCUS_ZIG_TARGET)
 string(REGEX MATCH "^[^-]+" CMAKE_SYSTEM_PROCESSOR ${MENISCUS_ZIG_TARGET})
 if(MENISCUS_ZIG_TARGET MATCHES "windows")
@@ -11,11 +11,11 @@ elseif(MENISCUS_ZIG_TARGET MATCHES "macos")
 else()
   set(CMAKE_SYSTEM_NAME Linux)
 endif()
-# zig compiles the systems' C and C++ libraries once for each target and once more for links without symbols: -s, always.
+# zig compiles a system's C and C++ libraries once per target, and again for links without symbols; -s is always set.
 set(compile "-target ${MENISCUS_ZIG_TARGET} -s")
 set(tools "C_COMPILER|clang|cc ${compile}" "CXX_COMPILER|clang++|c++ ${compile}" "AR|ar|ar" "RANLIB|ranlib|ranlib"
     "RC_COMPILER|rc|rc")
-# CMake and ccache take a compiler as one word, and ccache knows clang by its name.
+# CMake and ccache accept a compiler of one word only, and ccache knows clang by its name.
 foreach(tool IN LISTS tools)
   string(REPLACE "|" ";" tool "${tool}")
   list(GET tool 0 variable)

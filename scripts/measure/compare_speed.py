@@ -21,7 +21,7 @@ RUNS = int(os.environ.get("MENISCUS_RUNS", "3"))
 PATIENCE = float(os.environ.get("MENISCUS_PATIENCE", "120"))
 TOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
 SERIES = ["surface", "adk.psf", "--trajectory", "adk_dims.dcd", "--frames", "all", "--csv-series", "-"]
-#: Title, arguments, and how many frames one run has.
+#: Title, arguments, and the number of frames of one run.
 CASES = [
     ("areas, SAS: 1TII", ["surface", TOXIN, "--surface", "sas", "--json"], 1),
     ("areas, SAS: 1AON", ["surface", "1aon.cif", "--surface", "sas", "--json"], 1),
@@ -48,7 +48,7 @@ CASES = [
 
 @dataclass
 class Cost:
-    """What one process cost: CPU seconds, its largest memory in MB, and what it printed."""
+    """The cost of one process: CPU seconds, its largest memory in MB, and its output."""
     busy: float
     peak: float
     output: str
@@ -72,7 +72,7 @@ def measured(command, cwd):
 
 
 def path_of(word, folder):
-    """A structure's path in the folder, packed or not; other words are as they are."""
+    """Returns a structure's path in the folder, packed or not; returns other words unchanged."""
     for name in (word, word + ".gz"):
         if os.path.exists(os.path.join(folder, name)):
             return os.path.join(folder, name)
@@ -84,7 +84,7 @@ def without_times(output):
 
 
 def run(programs, words, place):
-    """Both programs in turn; the costs of each, or None where it was given up."""
+    """Runs both programs in turn. Returns the costs of each, or None if it was given up."""
     costs = {program: [] for program in programs}
     for _ in range(RUNS):
         for program in programs:

@@ -1,5 +1,5 @@
-# Sourced by the scripts that try Meniscus in a bare Debian. They need root and mmdebstrap. MENISCUS_SUITE names the release
-# of Debian, bookworm by default. The folder $work is temporary; $home is /root of the bare system.
+# Scripts that try Meniscus in a bare Debian source this. They need root and mmdebstrap. MENISCUS_SUITE names the
+# release of Debian, bookworm by default. The folder $work is temporary; $home is /root of the bare system.
 ((EUID == 0)) || { echo "$(basename "$0"): a bare system is made by root" >&2; exit 2; }
 work=$(mktemp -d)
 root=$work/root
@@ -16,7 +16,7 @@ bare_system() {
     { tail -n 5 "$work/mmdebstrap.log" >&2; exit 1; }
 }
 
-# take_packages [FOLDER]: sets $packages to a folder of Debian packages; without one they are made of build/test.
+# take_packages [FOLDER]: sets $packages to a folder of Debian packages; without one they are made from build/test.
 take_packages() {
   packages=${1:-$work/packages}
   [[ $1 ]] || bash scripts/package/debian.sh "$packages" build/test 2>/dev/null
@@ -31,18 +31,18 @@ enter_bare() {
   cp /etc/resolv.conf "$root/etc/"
 }
 
-# copy_tree: the files of this tree go into /root/meniscus of the bare system.
+# copy_tree: copies the files of this tree to /root/meniscus of the bare system.
 copy_tree() {
   mkdir "$home/meniscus"
   git ls-files -z --cached --others --exclude-standard | tar c --null -T - --ignore-failed-read 2>/dev/null | tar x -C "$home/meniscus"
 }
 
-# As the commands of `check` are run: here in the bare system, in its /root.
+# `check` calls this function to run commands; this one runs them in /root of the bare system.
 bare_environment=(PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive)
 run_checked() { chroot "$root" env -i "${bare_environment[@]}" bash -c "cd && $*"; }
 install="apt-get install -y --no-install-recommends"
 
-# check WHAT COMMAND...: counts a case, and says whether the command succeeded and the last line that it printed.
+# check WHAT COMMAND...: counts a case, and prints whether the command succeeded and its last line.
 cases=0 failures=0
 check() {
   local what=$1

@@ -16,7 +16,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 umask 022
 
-# Git knows which files belong to the tree; a container's copy of it has no others.
+# Git knows which files belong to the tree; a copy of it in a container has no other files.
 tree=$work/meniscus-$version
 mkdir "$tree"
 { git ls-files -z --cached --others --exclude-standard 2>/dev/null || find . -path ./build -prune -o -type f -print0; } |

@@ -14,7 +14,7 @@ import sys
 import lief
 
 
-#: Functions whose rounding no standard defines, without the suffix for float and long double.
+#: Mathematical functions whose rounding no standard defines, without the suffix for float and long double.
 INEXACT = set("acos acosh asin asinh atan atan2 atanh cbrt cos cosh erf erfc exp exp10 exp2 expm1 hypot lgamma log log10 log1p log2 pow "
               "sin sincos sinh tan tanh tgamma".split())
 

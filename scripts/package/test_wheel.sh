@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the wheel, installs it into a fresh virtual environment together with the packages that it supports, the newest
-# of PyPI, and runs its tests there, outside the tree. The last line has the number of cases.
+# Builds the wheel, installs it into a fresh virtual environment together with the newest packages of PyPI that it
+# supports, and runs its tests there, outside the tree. The last line has the number of cases.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 export CMAKE_BUILD_PARALLEL_LEVEL=${MENISCUS_JOBS:-$(nproc)}

@@ -24,7 +24,7 @@ base() {
   local container
   container=$(buildah from scratch) && buildah add -q "$container" "$bare" / && buildah commit -q --rm "$container" bare
 }
-# in_node COMMAND...: as a container of the image runs it, with the bundle's folder mounted.
+# in_node COMMAND...: runs a command in a container of the image, with the bundle's folder mounted.
 in_node() { buildah run -v "$work/films:/bundle" "$node" -- "$@"; }
 entry_point() {
   local told='{{.OCIv1.Config.Entrypoint}} {{.OCIv1.Config.User}}'

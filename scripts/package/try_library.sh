@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds libmeniscus alone in a bare Debian 12 that has a compiler, CMake, GLM, fmt and TBB, and nothing else of what
-# Meniscus can use; runs a C program and the Python package on it, and looks whether every call that would need more says
-# so. As root, with mmdebstrap.
+# Builds libmeniscus alone in a bare Debian 12 with a compiler, CMake, GLM, fmt and TBB, and no other library that
+# Meniscus can use; runs a C program and the Python package with it, and checks that every call that needs more reports
+# this. Needs root and mmdebstrap.
 #
 #   scripts/package/try_library.sh [BARE.tar]
 #

@@ -28,7 +28,7 @@ find_package(Meniscus 0.3 REQUIRED)
 add_executable(balls balls.cpp)
 target_link_libraries(balls PRIVATE Meniscus::cpp)
 CMAKE
-# Reads a molecule, computes it, and leaves its atoms and measures for the others.
+# This script reads a molecule, computes it, and leaves its atoms and measures for the others.
 cat >"$home/compute.py" <<'PYTHON'
 import meniscus
 import numpy as np

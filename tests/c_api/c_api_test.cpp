@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C interface: numbers, closed forms, what it refuses, structs of other versions, who owns what.
+// The C interface: numbers, closed forms, refusals, structs of other versions, ownership.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -110,7 +110,7 @@ TEST(CApi, OneSphereIsOneSphere) {
   }
 }
 
-// The closed form of docs/explanation/theory.md.
+// docs/explanation/theory.md has the closed form.
 TEST(CApi, TwoSpheresAreTheirClosedForm) {
   const double r = 1.7, p = 1.4, d = 4.0, R = r + p, T = std::sqrt(R * R - d * d / 4), phi = std::asin(d / (2 * R));
   const Computer made = computer();
@@ -230,7 +230,7 @@ TEST(CApi, RefusesBadOptions) {
   EXPECT_NE(std::strstr(meniscus_last_error(), "probe_radius: -1.4 Å is negative"), nullptr) << meniscus_last_error();
   EXPECT_EQ(refused([](auto& o) { o.probe_radius = 1e-4; }), MENISCUS_INPUT);
   EXPECT_EQ(refused([](auto& o) { o.probe_radius = kInfinity; }), MENISCUS_INPUT);
-  // A struct of zeros but for its size would be a surface without a probe.
+  // A struct of zeros but for its size would mean a surface without a probe.
   for (const meniscus_kind kind : {MENISCUS_SES, MENISCUS_SAS}) {
     const auto zeros = [kind](auto& o) { o = {sizeof o, 0.0, kind, MENISCUS_CPU, 0, 0}; };
     EXPECT_EQ(refused(zeros), MENISCUS_INPUT);
@@ -259,7 +259,7 @@ TEST(CApi, GradientsOfWhatHasThem) {
   const SurfaceOf nearer = computed(made.get(), testing::two_atoms(4.0 - step));
   const SurfaceOf farther = computed(made.get(), testing::two_atoms(4.0 + step));
   const meniscus_summary less = summary_of(nearer), more = summary_of(farther);
-  // Of the accessible surface, two caps of height R + d / 2 on either side: 2 pi R and pi (R^2 - d^2 / 4).
+  // The accessible surface has two caps of height R + d / 2 on either side: 2 pi R and pi (R^2 - d^2 / 4).
   const double along_axis[] = {(more.area - less.area) / (2 * step), (more.volume - less.volume) / (2 * step),
                                2 * pi * accessible, pi * (accessible * accessible - 4.0)};
   for (const meniscus_quantity quantity :
@@ -277,7 +277,7 @@ TEST(CApi, GradientsOfWhatHasThem) {
   EXPECT_EQ(meniscus_surface_gradient(surface.get(), meniscus_quantity{4}, nullptr, weighted), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_surface_gradient(surface.get(), meniscus_quantity{-1}, nullptr, weighted), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_surface_gradient(surface.get(), meniscus_quantity{0}, nullptr, nullptr), MENISCUS_USAGE);
-  EXPECT_NEAR(weighted[3], 2 * gradient[3], 1e-12);  // as it was
+  EXPECT_NEAR(weighted[3], 2 * gradient[3], 1e-12);  // The gradient stays unchanged.
   const SurfaceOf square = computed(made.get(), testing::ring(4, 3.4));
   double of_square[12];
   EXPECT_EQ(meniscus_surface_gradient(square.get(), MENISCUS_GRADIENT_VOLUME, nullptr, of_square), MENISCUS_INPUT);
@@ -293,7 +293,7 @@ TEST(CApi, RefusesNullAndUnknownTables) {
   std::int32_t element = 0;
   EXPECT_EQ(meniscus_compute(nullptr, nullptr, nullptr), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_surface_summary(nullptr, &summary), MENISCUS_USAGE);
-  EXPECT_EQ(meniscus_surface_summary(surface.get(), &summary), MENISCUS_USAGE);  // without its size
+  EXPECT_EQ(meniscus_surface_summary(surface.get(), &summary), MENISCUS_USAGE);  // Its size is missing.
   EXPECT_EQ(meniscus_surface_table(surface.get(), meniscus_surface_table_id{15}, &array), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_surface_table(surface.get(), meniscus_surface_table_id{-1}, &array), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_surface_table(surface.get(), MENISCUS_COMPONENTS, nullptr), MENISCUS_USAGE);
@@ -306,12 +306,12 @@ TEST(CApi, RefusesNullAndUnknownTables) {
   EXPECT_EQ(meniscus_surface_retain(nullptr), nullptr);
 }
 
-// As a caller with an older header passes them: what it does not know has its default.
+// A caller with an older header passes such structs: unknown fields have their defaults.
 TEST(CApi, TakesAStructOfAnOlderHeader) {
   meniscus_options options = default_options();
   options.size = offsetof(meniscus_options, kind);
   options.probe_radius = 2.0;
-  options.kind = MENISCUS_VDW;  // behind its end: not to be read
+  options.kind = MENISCUS_VDW;  // The field lies behind the end and must not be read.
   const Computer made = computer(options);
   const testing::Balls balls = testing::two_atoms(4.0);
   EXPECT_EQ(summary_of(computed(made.get(), balls)).area, compute_surface_cpu(balls, 2.0).area);
@@ -408,7 +408,7 @@ TEST(CApi, MeshesLieOnTheSurface) {
   EXPECT_EQ(triangles.count, atoms.count);
   EXPECT_EQ(triangles.count, kinds.count);
   EXPECT_EQ(kinds.stride, 1u);
-  EXPECT_EQ(triangles.count, 2 * positions.count - 4);  // one sphere
+  EXPECT_EQ(triangles.count, 2 * positions.count - 4);  // The mesh is one sphere.
   std::vector<double> distances(positions.count);
   ASSERT_EQ(meniscus_surface_distance(surface.get(), positions.count, static_cast<const double*>(positions.data),
                                       distances.data(), nullptr),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every pointer, count, stride, word and number that the C interface takes, from one table that the header is held
-// against: what cannot be is refused with a sentence, and nothing is changed.
+// Every pointer, count, stride, word and number that the C interface takes, in one table that is compared with the
+// header: wrong ones are refused with a sentence, and nothing is changed.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -28,7 +28,7 @@ Struct sized() {
   return made;
 }
 
-/// A file of two atoms.
+/// Returns a file of two atoms.
 const std::string& molecule() {
   static const TemporaryFolder folder;
   static const std::string path =
@@ -95,7 +95,7 @@ struct World {
     meniscus_structure_release(fresh);
     return status;
   }
-  /// With one text in a list, if it is anywhere.
+  /// Reads with a list of one text at `address`.
   meniscus_status read_with(const char* const* meniscus_read_options::*list, std::size_t meniscus_read_options::*count,
                             const void* address) {
     reading.*list = static_cast<const char* const*>(address);
@@ -116,7 +116,7 @@ struct World {
   meniscus_status save() const { return meniscus_mesh_save(mesh.get(), path.c_str(), &file); }
 };
 
-/// Its address is not a multiple of 8.
+/// Inner addresses that are no multiples of 8 are misaligned for numbers.
 alignas(8) unsigned char crooked[64] = {};
 
 template <typename Type>
@@ -136,7 +136,7 @@ struct Pointer {
   const char* place;  // "function argument" or "struct.field"
   bool may_be_null;
   meniscus_status (*call)(World&, const void* address);
-  bool text = false;  // which is anywhere
+  bool text = false;  // A text may be anywhere.
 };
 
 #define ARGUMENT(function, name, may_be_null, ...)                                                       \
@@ -487,7 +487,7 @@ const Word kWords[] = {
      }},
 };
 
-/// Each ends with a sentence that says which argument it is.
+/// Checks that a call is refused with a message.
 void expect_refused(meniscus_status status, const char* place) {
   EXPECT_TRUE(status == MENISCUS_USAGE || status == MENISCUS_INPUT || status == MENISCUS_CAPACITY)
       << place << ": " << status;
@@ -520,7 +520,7 @@ TEST(CArguments, CountsAndStridesThatNoMemoryHasAreRefused) {
       SCOPED_TRACE(std::to_string(value));
       World world;
       const std::vector<double> before = world.numbers;
-      if (std::string_view(size.place).ends_with(" rgba_size") && value < kMost / 2) continue;  // room enough
+      if (std::string_view(size.place).ends_with(" rgba_size") && value < kMost / 2) continue;  // There is room enough.
       expect_refused(size.call(world, value), size.place);
       EXPECT_EQ(world.numbers, before);
     }
@@ -546,7 +546,7 @@ TEST(CArguments, ArraysOfADistanceDoNotOverlap) {
   EXPECT_EQ(distance(w.n + 6, w.n + 7), MENISCUS_USAGE);
   EXPECT_NE(std::strstr(meniscus_last_error(), "overlap"), nullptr) << meniscus_last_error();
   EXPECT_EQ(distance(w.n + 6, w.n + 8), MENISCUS_OK);
-  EXPECT_EQ(distance(w.n + 6, w.n), MENISCUS_OK);  // in place
+  EXPECT_EQ(distance(w.n + 6, w.n), MENISCUS_OK);  // The results replace the points.
 }
 
 TEST(CArguments, NullHasNoHolders) {
@@ -566,8 +566,8 @@ TEST(CArguments, NullHasNoHolders) {
   meniscus_scene_release(nullptr);
 }
 
-/// What the header has: "function argument" of all functions, "struct.field" of pointers, sizes and what is kept for
-/// later of structs that begin with their size.
+/// Returns the header's places: "function argument" of all functions, "struct.field" of pointers, sizes and reserved
+/// fields of structs that begin with their size.
 std::set<std::string> places_of_header() {
   std::ifstream file(MENISCUS_HEADER);
   std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -593,7 +593,7 @@ std::set<std::string> places_of_header() {
 }
 
 TEST(CArguments, AreAllOfTheHeader) {
-  // A range, which CApiPictures tests; a place that may lie after the last; texts that are given out.
+  // The tables lack a range, which CApiPictures tests, a place that may lie after the last, and texts for callers.
   std::set<std::string> known{"meniscus_surface_camera aspect", "meniscus_scene_get n",
                               "meniscus_summary.device",        "meniscus_read_report.file",
                               "meniscus_read_report.format",    "meniscus_read_report.radii_set",

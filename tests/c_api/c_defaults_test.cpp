@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Defaults are the same through every door: those of the C interface are those of a scene.
+// The C interface has the defaults of a scene.
 #include <array>
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(CApiDefaults, OfMoleculesAreThoseOfAScene) {
   EXPECT_FALSE(usual.selection);
 }
 
-/// Compares the fields of what a macro initializes with the defaults of the library.
+/// Compares the fields that a macro initializes with the defaults of the library.
 template <typename Struct, typename... Fields>
 void expect_defaults(Struct begun, meniscus_status (*fill)(Struct*), Fields... fields) {
   Struct filled{};

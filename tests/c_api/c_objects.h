@@ -53,7 +53,7 @@ inline Renderer renderer(meniscus_device device) {
   return Renderer(made);
 }
 
-/// A scene with these values.
+/// Makes a scene with these values.
 inline SceneOf scene_with(const std::vector<std::pair<const char*, const char*>>& values) {
   meniscus_scene* made = nullptr;
   EXPECT_EQ(meniscus_scene_new(&made), MENISCUS_OK) << meniscus_last_error();
@@ -69,7 +69,7 @@ inline StructureOf structure_of(const std::string& path, const meniscus_read_opt
   return StructureOf(made);
 }
 
-/// The balls as they are in memory: rows of x, y, z, radius.
+/// Passes the balls from memory: rows of x, y, z, radius.
 inline meniscus_atoms atoms_of(const testing::Balls& balls) {
   meniscus_atoms atoms{};
   atoms.size = sizeof atoms;
@@ -95,7 +95,7 @@ inline meniscus_summary summary_of(const SurfaceOf& surface) {
   return summary;
 }
 
-/// A table's rows, copied.
+/// Copies a table's rows.
 template <typename Row>
 std::vector<Row> rows_of(const SurfaceOf& surface, meniscus_surface_table_id table) {
   meniscus_array array{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures through the C interface: as the library draws them, on a thread of their own, refused after fork().
+// Pictures through the C interface equal the library's, have a thread of their own, and are refused after fork().
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -30,7 +30,7 @@ TEST(CApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
   meniscus_camera camera{};
   camera.size = sizeof camera;
   ASSERT_EQ(meniscus_surface_camera(surface.get(), 1.0, MENISCUS_ORTHOGRAPHIC, &camera), MENISCUS_OK);
-  camera.height = 8.0;  // so the sphere is half as wide as the picture
+  camera.height = 8.0;  // The sphere is half as wide as the picture.
   const SceneOf scene = scene_with({{"size", "100x100"}, {"preset", "classic"}});
   const float green[3] = {0.0f, 1.0f, 0.0f};
   std::vector<std::uint8_t> rgba(40000);
@@ -42,7 +42,7 @@ TEST(CApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
   for (std::size_t n = 3; n < rgba.size(); n += 4) covered += rgba[n] / 255.0;
   EXPECT_NEAR(covered, 3.14159 * 25 * 25, 20.0);
   const auto middle = pixel_at(rgba, 100, 50, 50), corner = pixel_at(rgba, 100, 0, 0);
-  EXPECT_LT(middle[0], 30);  // but for the highlight
+  EXPECT_LT(middle[0], 30);  // The highlight is brighter.
   EXPECT_GT(middle[1], 100);
   EXPECT_EQ(middle[3], 255);
   EXPECT_EQ(corner[3], 0);
@@ -98,7 +98,7 @@ TEST(CApiPictures, RefuseWhatCannotBe) {
   const auto said = [](const char* words) { return std::strstr(meniscus_last_error(), words) != nullptr; };
   const float colors[6] = {0.0f, 0.0f, 0.0f, 0.5f, std::nanf(""), 0.5f};
   meniscus_camera camera{};
-  camera.size = sizeof camera;  // at its own target
+  camera.size = sizeof camera;  // The camera is at its own target.
   EXPECT_EQ(draw(scene_of("65x48"), nullptr, nullptr), MENISCUS_USAGE);
   EXPECT_TRUE(said("65x48 pixels need")) << meniscus_last_error();
   EXPECT_EQ(draw(scene_of("64x48"), &camera, nullptr), MENISCUS_INPUT);
@@ -113,7 +113,7 @@ TEST(CApiPictures, RefuseWhatCannotBe) {
   EXPECT_EQ(meniscus_renderer_new(meniscus_device{9}, &none), MENISCUS_USAGE);
 }
 
-// Drivers keep threads that a child does not have; it would wait for them.
+// Drivers keep threads that a child does not have, so that it would wait for them.
 TEST(CApiPictures, AreRefusedInAChildOfFork) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::two_atoms(4.0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pockets through the C interface: the program's numbers, and what is refused.
+// Pockets through the C interface have the program's numbers, and wrong arguments are refused.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -64,7 +64,7 @@ TEST(CPockets, AreThoseOfTheProgramToTheLastDigit) {
     meniscus_pockets* found = nullptr;
     ASSERT_EQ(meniscus_surface_pockets(surface.get(), &options, &found), MENISCUS_OK) << meniscus_last_error();
     pockets.reset(found);
-  }  // they outlive the surface
+  }  // Pockets outlive the surface.
   const auto rows = rows_of<meniscus_pocket>(pockets, MENISCUS_POCKETS);
   const auto mouths = rows_of<double>(pockets, MENISCUS_POCKET_MOUTHS);
   const auto atoms = rows_of<std::uint32_t>(pockets, MENISCUS_POCKET_ATOMS);
@@ -116,7 +116,7 @@ TEST(CPockets, RefuseWhatMakesNoSense) {
   accessible.kind = MENISCUS_VDW;
   const Computer without = computer(accessible);
   EXPECT_EQ(meniscus_surface_pockets(computed(without.get(), balls).get(), nullptr, &pockets), MENISCUS_USAGE);
-  // None at all: tables without rows.
+  // A surface without pockets has tables without rows.
   ASSERT_EQ(meniscus_surface_pockets(surface.get(), nullptr, &pockets), MENISCUS_OK) << meniscus_last_error();
   const PocketsOf none(pockets, meniscus_pockets_release);
   EXPECT_TRUE(rows_of<meniscus_pocket>(none, MENISCUS_POCKETS).empty());

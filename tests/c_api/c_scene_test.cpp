@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes through the C interface: values by the names of the table, JSON both ways, and the pictures of the program.
+// Scenes through the C interface: values by their names in the table, JSON both ways, and the program's pictures.
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -85,14 +85,14 @@ TEST(CApiScenes, KeepWhatIsSetInTheUnitsOfTheTable) {
   EXPECT_EQ(value_of(scene, "keep_water"), "default");
   EXPECT_EQ(value_of(scene, "silhouettes"), "default");
   EXPECT_EQ(value_of(scene, "depth_cue"), "0.25");
-  // Repeated ones are added; nothing takes all away.
+  // Repeated values are added; nullptr removes all.
   for (const char* const label : {"resid 1=one", "resid 2=two"})
     ASSERT_EQ(meniscus_scene_set(scene.get(), "label", label), MENISCUS_OK);
   EXPECT_EQ(value_of(scene, "label", 1), "resid 2=two");
   EXPECT_EQ(value_of(scene, "label", 2), "default");
   ASSERT_EQ(meniscus_scene_set(scene.get(), "label", nullptr), MENISCUS_OK);
   EXPECT_EQ(value_of(scene, "label"), "default");
-  // A key of a scene file that is false where the option is given.
+  // The option hide_surface is given where the scene file's key is false.
   ASSERT_EQ(meniscus_scene_set(scene.get(), "surface.shown", "false"), MENISCUS_OK);
   EXPECT_EQ(value_of(scene, "surface.shown"), "false");
   EXPECT_EQ(value_of(scene, "hide_surface"), "true");

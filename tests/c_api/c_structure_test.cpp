@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Molecules from files through the C interface: what is taken, what is told of each atom, which errors there are.
+// Molecules from files through the C interface: options, data of each atom, errors.
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-/// Two residues, one with two alternate locations, an ion, a water, and a second model.
+/// The molecule has two residues, one with two alternate locations, an ion, a water, and a second model.
 constexpr std::string_view kMolecule =
     "REMARK 350 BIOMOLECULE: 1\n"
     "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n"
@@ -71,7 +71,7 @@ struct CStructure : ::testing::Test {
   const TemporaryFolder folder;
   const std::string path = folder.file("molecule.pdb", kMolecule);
 
-  /// The sentence of a call that is refused.
+  /// Returns the message of a refused call.
   std::string refused(const meniscus_read_options& options, meniscus_status expected) const {
     meniscus_structure* made = nullptr;
     EXPECT_EQ(meniscus_read(path.c_str(), &options, &made), expected) << meniscus_last_error();
@@ -161,7 +161,7 @@ TEST_F(CStructure, TakesWhatTheOptionsSay) {
   options.hydrogens = MENISCUS_HYDROGENS_DROP;
   EXPECT_EQ(names(options), "N CA N ");
   options = reading();
-  options.radii = "united";  // which contain hydrogens
+  options.radii = "united";  // United radii contain hydrogens.
   EXPECT_EQ(names(options), "N CA N ");
   options = reading();
   options.model = 2;

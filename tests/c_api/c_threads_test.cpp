@@ -18,7 +18,7 @@ using namespace test;
 
 constexpr int kThreads = 8;
 
-/// Runs it on eight threads that begin together; returns how many of them were right.
+/// Runs the work on eight threads that begin together; returns how many of them were right.
 template <typename Work>
 int right_on_threads(const Work& work) {
   std::atomic<int> waiting{kThreads}, right{0};
@@ -38,7 +38,7 @@ TEST(CApiThreads, EightWithComputersOfTheirOwnAgree) {
   const double area = compute_surface_cpu(balls, 1.4).area;
   EXPECT_EQ(right_on_threads([&](int n) {
               meniscus_options options = default_options();
-              options.threads = n % 3;  // all, one, two
+              options.threads = n % 3;  // all threads, one, two
               const Computer own = computer(options);
               bool right = true;
               for (int k = 0; k < 3; ++k) right = right && summary_of(computed(own.get(), balls)).area == area;
@@ -81,7 +81,7 @@ TEST(CApiThreads, AChildOfForkGoesOnComputing) {
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    ::alarm(60);  // a child that waits for threads it does not have
+    ::alarm(60);  // The alarm ends a child that waits for missing threads.
     const SurfaceOf again = computed(made.get(), balls);
     const bool right =
         again && summary_of(again).area == area && rows_of<double>(again, MENISCUS_ATOM_AREAS).size() == balls.size();

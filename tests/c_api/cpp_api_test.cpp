@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C++ header over the C interface: closed forms through every class, errors as exceptions, who owns what.
+// The C++ header over the C interface: closed forms through every class, errors as exceptions, ownership.
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -29,7 +29,7 @@ const std::vector<Ball> kOneBall = {{{1.0, 2.0, 3.0}, 2.0}};
 
 double sum(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// Two balls of the same radius, near enough for a saddle that does not reach its axis.
+// Two balls of the same radius lie so near that their saddle does not reach its axis.
 struct Pair {
   double radius = 2.0, apart = 4.4, probe = 1.4;
   std::vector<Ball> balls = {{{0.0, 0.0, 0.0}, radius}, {{apart, 0.0, 0.0}, radius}};
@@ -116,7 +116,7 @@ TEST(CppApi, Gradients) {
 }
 
 TEST(CppApi, Pockets) {
-  // A hollow ball of atoms, open at one pole.
+  // Atoms make a hollow ball that is open at one pole.
   std::vector<double> xyz;
   constexpr int kAtoms = 400;
   for (int n = 0; n < kAtoms - 12; ++n) {
@@ -129,13 +129,13 @@ TEST(CppApi, Pockets) {
   ASSERT_EQ(pockets.rows().size(), 1u);
   const meniscus_pocket& pocket = pockets.rows()[0];
   EXPECT_EQ(pocket.mouth_count, 1u);
-  EXPECT_NEAR(pocket.volume, 1600.0, 300.0);  // of a ball of 7.3 Å and more, less a cap
+  EXPECT_NEAR(pocket.volume, 1600.0, 300.0);  // volume of a ball of at least 7.3 Å, without a cap
   ASSERT_EQ(pockets.mouth_areas().size(), 1u);
   EXPECT_EQ(pockets.mouth_areas()[0], pocket.mouth_area);
   EXPECT_EQ(pockets.atoms().size(), pocket.atom_count);
   ASSERT_EQ(pockets.probes().size(), pocket.probe_count);
   for (const Vector& probe : pockets.probes())
-    EXPECT_LT(std::hypot(probe[0], probe[1], probe[2]), 9.0 - 1.4);  // all are inside
+    EXPECT_LT(std::hypot(probe[0], probe[1], probe[2]), 9.0 - 1.4);  // All probes are inside.
   options.large_probe_radius = 1.0;
   EXPECT_THROW(Computer().compute({xyz, std::vector<double>{1.7}}).pockets(options), meniscus::InputError);
 }
@@ -157,7 +157,7 @@ TEST(CppApi, AMeshIsClosedAndOutlivesItsSurface) {
   options.tolerance = 0.05;
   const meniscus::Mesh mesh = Computer().compute({kOneBall}).mesh(options);
   const std::size_t triangles = mesh.triangles().size();
-  EXPECT_EQ(mesh.positions().size(), 2 + triangles / 2);  // Euler's formula
+  EXPECT_EQ(mesh.positions().size(), 2 + triangles / 2);  // Euler's formula gives this count.
   for (const Vector& p : mesh.positions()) EXPECT_NEAR(std::hypot(p[0] - 1, p[1] - 2, p[2] - 3), 2.0, 1e-9);
   EXPECT_EQ(mesh.normals().size(), mesh.positions().size());
   for (const std::size_t size :
@@ -171,7 +171,7 @@ TEST(CppApi, AMeshIsClosedAndOutlivesItsSurface) {
   const std::string path = ::testing::TempDir() + "cpp_api_test_" + std::to_string(::getpid()) + ".mesh";
   mesh.save(path, file);
   EXPECT_THROW(mesh.save(path, file), meniscus::OutputError);
-  EXPECT_THROW(mesh.save(path), meniscus::UsageError);  // its ending says nothing
+  EXPECT_THROW(mesh.save(path), meniscus::UsageError);  // The name's ending tells no format.
   EXPECT_TRUE(std::filesystem::remove(path));
   EXPECT_GT(Computer().compute({kOneBall}).mesh().positions().size(), mesh.positions().size());  // 0.01 Å
 }
@@ -218,7 +218,7 @@ TEST(CppApi, OwnersMoveAndDoNotCopy) {
   Surface first = Computer().compute({kOneBall});
   const std::span<const double> areas = first.atom_areas();
   Surface second = std::move(first);
-  // NOLINTBEGIN(bugprone-use-after-move,clang-analyzer-cplusplus.Move): that is what is asked
+  // NOLINTBEGIN(bugprone-use-after-move,clang-analyzer-cplusplus.Move): moved objects are under test
   EXPECT_EQ(first.get(), nullptr);
   EXPECT_THROW(first.area(), meniscus::UsageError);
   // NOLINTEND(bugprone-use-after-move,clang-analyzer-cplusplus.Move)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures through the C++ header: as large as the sphere is, and refused where there is no room.
+// Pictures through the C++ header have the sphere's size, and are refused where there is no room.
 #include <numbers>
 #include <vector>
 
@@ -14,7 +14,7 @@ TEST(CppApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
   const meniscus::Surface surface = meniscus::Computer().compute({balls});
   const meniscus::Renderer renderer(MENISCUS_SOFTWARE);
   meniscus::Camera camera = surface.camera(1.0, MENISCUS_ORTHOGRAPHIC);
-  camera.height = 8.0;  // so the sphere is half as wide as the picture
+  camera.height = 8.0;  // The sphere is half as wide as the picture.
   meniscus::Scene scene;
   scene.set("size", "64x64").set("silhouettes", "0");
   const meniscus::Picture picture = renderer.render(surface, scene, &camera);
@@ -33,7 +33,7 @@ TEST(CppApiPictures, ScenesHoldWhatTheyAreGiven) {
   scene.set("label", "resid 1=one").set("label", "resid 2=two");
   EXPECT_EQ(meniscus::Scene::parse(scene.json()).get("label", 1), "resid 2=two");
   EXPECT_EQ(scene.reset("label").get("label"), std::nullopt);
-  EXPECT_THROW(scene.render(MENISCUS_CPU), meniscus::UsageError);  // of no molecule
+  EXPECT_THROW(scene.render(MENISCUS_CPU), meniscus::UsageError);  // The scene has no molecule.
   EXPECT_THROW(meniscus::Scene::parse("{"), meniscus::InputError);
   EXPECT_GT(meniscus::Scene::properties().size(), 90U);
 }
@@ -50,7 +50,7 @@ TEST(CppApiPictures, PagesAreTexts) {
   const std::vector<float> colors = {1, 0, 0, 0, 0, 1};
   EXPECT_NE(meniscus::Page(surface, nullptr, look, nullptr, colors).html(), page.html());
   EXPECT_THROW(meniscus::Page(surface, nullptr, look, nullptr, std::vector<float>(4)), meniscus::UsageError);
-  EXPECT_THROW(meniscus::Page{meniscus::Scene()}, meniscus::UsageError);  // of no molecule
+  EXPECT_THROW(meniscus::Page{meniscus::Scene()}, meniscus::UsageError);  // The scene has no molecule.
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The header is C99 without a warning, and its example does what it says. */
+/* The header is C99 without a warning, and its example has the promised result. */
 #include <meniscus/meniscus.h>
 
 #include <stdio.h>

@@ -27,7 +27,7 @@ def measures(executable, environment):
 
 
 def document_program():
-    """The C++ program of the document, and what it prints, by the comments at the ends of its lines."""
+    """Returns the C++ program of the document, and its output by the comments at the ends of its lines."""
     text = re.search(r"```cpp\n(.*?)```", pathlib.Path(document).read_text(), re.S)[1]
     told = [float(number) for comment in re.findall(r"<<.*// ([-0-9., ]+)$", text, re.M) for number in comment.split(",")]
     pi = math.pi  # balls of 2 and 1 Å, then two of 2 Å, apart; points 5 Å from one centre, and in the other; pixels
@@ -53,7 +53,7 @@ def needs_library(executable):
 
 
 def say_what_the_loader_needs(prefix, work):
-    """Where the loader looks in the library's folder, but does not know of the library, it has to be told."""
+    """Checks that the installation names ldconfig where the loader searches the folder but lacks the library."""
     folder = next(prefix.rglob("libmeniscus.so")).parent
     lists, known = f"{folder}: (from its configuration)", f"libmeniscus.so.0 (libc6,x86-64) => {folder}/libmeniscus.so.0"
     for searched, cache, said in ((lists, "", True), (lists, known, False), ("/usr/lib: (from <builtin>)", "", False)):
@@ -95,7 +95,7 @@ with tempfile.TemporaryDirectory() as folder:
     shared = [by_pkg_config("shared"), by_cmake("shared")]
     static = [by_cmake("static", "-DMeniscus_USE_STATIC_LIBS=ON")]
     for file in [*libraries.glob("libmeniscus.so*"), *libraries.glob("cmake/Meniscus/MeniscusShared*")]:
-        file.rename(work / file.name)  # as if it had not been installed
+        file.rename(work / file.name)  # Removed files act like ones that were not installed.
     static += [by_pkg_config("static", "--static"), by_cmake("archive_alone")]
     (libraries / "cmake/Meniscus/MeniscusStatic.cmake").unlink()
     nothing = subprocess.run(["cmake", "-S", example, "-B", work / "nothing", f"-DCMAKE_PREFIX_PATH={prefix}"], text=True,

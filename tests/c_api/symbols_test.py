@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""symbols_test.py LIBRARY HEADER: what leaves the shared library is what the header declares, and nothing else; what
-it needs is little."""
+"""symbols_test.py LIBRARY HEADER: the shared library exports exactly what the header declares, and needs few other
+symbols."""
 import pathlib
 import re
 import subprocess

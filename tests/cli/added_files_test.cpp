@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several molecules in one figure: files that are added, superposed, and told apart as models.
+// Several molecules in one figure: files that are added, superposed, and distinguished as models.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The same file with its atoms turned about z and moved, as PDB rounds them.
+/// Returns the file with its atoms turned about z and moved, with the rounding of PDB.
 std::string turned(const std::string& pdb, double angle, double shift) {
   std::string text;
   std::size_t begin = 0;
@@ -58,7 +58,7 @@ TEST_F(AddedFiles, AreModelsWithSurfacesOfTheirOwn) {
   EXPECT_EQ(both["atoms"]["used"], one["atoms"]["used"].get<int>() + other["atoms"]["used"].get<int>());
   EXPECT_EQ(both["atoms"]["read"], one["atoms"]["read"].get<int>() + other["atoms"]["read"].get<int>());
   EXPECT_EQ(both["added"], Json::array({{{"file", moved_}, {"model", 2}, {"atoms", 660}}}));
-  // So far apart they have the same surface without the division, too.
+  // Molecules so far apart have the same surface without the division, too.
   EXPECT_NEAR(surface({kToxin, "--add", moved_})["area"], both["area"].get<double>(), 1e-6);
   EXPECT_EQ(surface({kToxin, "--add", moved_, "--select", "model 2"})["area"], other["area"]);
   EXPECT_EQ(surface({kToxin, "--add", moved_, "--select", "not model 2"})["area"], one["area"]);
@@ -72,7 +72,7 @@ TEST_F(AddedFiles, AreSuperposedOnTheFirst) {
   EXPECT_NEAR(fit["matrix"][0][0], std::cos(1.0), 1e-4);
   EXPECT_NEAR(fit["matrix"][1][0], -std::sin(1.0), 1e-4);
   EXPECT_NEAR(fit["matrix"][0][3], -300.0 * std::cos(1.0), 0.02);
-  // What is in the same place but for PDB's rounding fills no more room than one of them.
+  // Molecules in the same place, except for PDB's rounding, fill no more room than one of them.
   const double alone = surface({kUbiquitin})["volume"];
   EXPECT_NEAR(surface({kUbiquitin, "--add", moved_, "--superpose-on", "name CA"})["volume"], alone, 0.001 * alone);
   const ProgramResult said = meniscus({"surface", kUbiquitin, "--add", moved_, "--superpose-on", "name CA"});

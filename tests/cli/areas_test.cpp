@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `meniscus surface` says about parts: kinds of surface, cavities, chains, components, atoms and residues.
+// The report of `meniscus surface` about parts: kinds of surface, cavities, chains, components, atoms and residues.
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -35,7 +35,7 @@ json surface_json(std::vector<std::string> arguments) {
 
 using Table = std::vector<std::map<std::string, std::string>>;
 
-// Cells without quotes only.
+// Parses CSV whose cells have no quotes.
 Table parse_csv(const std::string& text) {
   std::istringstream lines(text);
   std::string line, cell;
@@ -84,7 +84,7 @@ TEST(Cavities, DropAndOnlyMakeUpTheWhole) {
   EXPECT_EQ(drop["components"].size() + only["components"].size(), keep["components"].size());
 }
 
-// Sixty atoms, for the other program needs 100,000 slices an atom until its areas are exact to 1e-4 Å².
+// The test uses sixty atoms, because freesasa needs 100,000 slices per atom for areas that are exact to 1e-4 Å².
 TEST(Csv, AccessibleAreasAreThoseOfFreesasa) {
   const TemporaryFolder folder;
   std::istringstream file(test::read_bytes(kUbiquitin));
@@ -98,7 +98,7 @@ TEST(Csv, AccessibleAreasAreThoseOfFreesasa) {
   ASSERT_EQ(ours.exit_code, 0) << ours.err;
   const Table rows = parse_csv(ours.out);
   ASSERT_EQ(rows.size(), 60u);
-  // The same atoms with our radii where freesasa takes radii from.
+  // The same atoms have our radii in the column from which freesasa takes radii.
   std::istringstream again(text);
   std::string with_radii;
   for (const auto& row : rows) {
@@ -193,13 +193,13 @@ TEST(Csv, AtomsAndResiduesAddUpToTheSurface) {
   EXPECT_EQ(by_atom.front().at("class"), "polymer");
   EXPECT_EQ(by_atom.front().at("element"), "N");
 
-  EXPECT_EQ(surface({kToxin, "--csv", atoms}).exit_code, 6);  // is there already
+  EXPECT_EQ(surface({kToxin, "--csv", atoms}).exit_code, 6);  // the file exists already
   EXPECT_EQ(surface({kToxin, "--csv", atoms, "--force"}).exit_code, 0);
   EXPECT_EQ(surface({kToxin, "--csv", "-", "--json"}).exit_code, 2);
   EXPECT_EQ(surface({kToxin, "--csv", "same", "--csv-residues", "same"}).exit_code, 2);
 }
 
-// Areas by the other program; it divides them by those of Gly-X-Gly in one conformation.
+// freesasa computes the areas; it divides them by those of Gly-X-Gly in one conformation.
 TEST(Csv, RelativeAccessibilityIsAccessibleAreaOverTheGreatest) {
   const std::map<std::string, double> greatest{// M. Z. Tien et al., PLoS ONE 8, e80635 (2013), table 1, theoretical
                                                {"ALA", 129}, {"ARG", 274}, {"ASN", 195}, {"ASP", 193}, {"GLN", 225},
@@ -227,7 +227,7 @@ TEST(Csv, RelativeAccessibilityIsAccessibleAreaOverTheGreatest) {
     EXPECT_NEAR(std::stod(ours[n++].at("relative_sas_area")), area / greatest.at(residue), 1e-3) << line;
   }
   EXPECT_EQ(n, 76u);
-  // The same of the accessible surface; never of areas of another surface or probe.
+  // Relative areas are also those of the accessible surface, but never of another surface or probe.
   for (std::size_t k = 0; const auto& row : residues({kUbiquitin, "--radii", "protor", "--surface", "sas"}))
     EXPECT_NEAR(std::stod(row.at("relative_sas_area")), std::stod(ours[k++].at("relative_sas_area")), 2e-6);
   for (std::vector<std::string> other :
@@ -235,7 +235,7 @@ TEST(Csv, RelativeAccessibilityIsAccessibleAreaOverTheGreatest) {
     other.insert(other.begin(), kUbiquitin);
     EXPECT_FALSE(residues(other).front().contains("relative_sas_area"));
   }
-  // In the presence of others, and what they bury; nothing for parts of residues and what is no amino acid.
+  // A context gives areas among others, and buried areas; parts of residues and other molecules have none.
   for (const auto& row : residues({kToxin, "--select", "chain D", "--context", "chain E"}))
     EXPECT_NEAR(std::stod(row.at("relative_sas_area")) - std::stod(row.at("relative_sas_area_in_context")),
                 std::stod(row.at("relative_sas_area_buried")), 2e-6);

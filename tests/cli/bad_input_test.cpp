@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bad molecule files: each gives exit code 3 (or 5), one line that names the file and says what to do, and no output.
+// Bad molecule files: each gives exit code 3 (or 5), one line with the file's name and advice, and no output.
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -21,7 +21,7 @@ using test::TemporaryFolder;
 constexpr int kInput = 3;
 constexpr int kCapacity = 5;
 
-/// One bad file: its name, content, and a part of the message that must be there.
+/// One bad file: its name, content, and a part of the required message.
 struct BadFile {
   const char* what;
   const char* name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colour options as a user gives them: numbers from a file, legends, what is refused, and names from a hostile file.
+// Colour options of users: numbers from a file, legends, errors, and names from a hostile file.
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace {
 using test::ProgramResult;
 using test::TemporaryFolder;
 
-/// Three glycines' CA in chains A, B and one with a hostile name, and a water.
+/// Returns CA atoms of three glycines in chains A, B and one with a hostile name, and a water.
 std::string molecule(const char* chain = "C") {
   constexpr const char* kLoop =
       "data_x\nloop_\n_atom_site.group_PDB\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
@@ -36,7 +36,7 @@ class ColorCommand : public ::testing::Test {
     return meniscus(arguments);
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-  /// The picture's bytes.
+  /// Returns the bytes of a picture.
   std::string picture(const std::vector<std::string>& arguments) {
     const ProgramResult result = render("a.png", arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -48,7 +48,7 @@ class ColorCommand : public ::testing::Test {
 };
 
 TEST_F(ColorCommand, NumbersFromAFileAreThoseOfTheAtoms) {
-  // The same numbers as the B-factors, given for all atoms of the file or for those used.
+  // The file has the numbers of the B-factors, for all atoms of the file or for the used ones.
   const std::string by_b = picture({"--color", "bfactor"});
   EXPECT_EQ(picture({"--color-by-file", folder_.file("all", "10 20 90 30\n")}), by_b);
   EXPECT_EQ(picture({"--color-by-file", folder_.file("used", "10\n20\n30\n")}), by_b);
@@ -76,7 +76,7 @@ TEST_F(ColorCommand, RulesPaintOverTheSchemeWhateverTheOrder) {
   EXPECT_NE(typo.err.find("'chain b' selects none of the atoms used"), std::string::npos) << typo.err;
 }
 
-/// A map from -1 at x = -5 to 1 at x = 5, 20 Å wide along y and z.
+/// Returns a map from -1 at x = -5 to 1 at x = 5, 20 Å wide along y and z.
 std::string linear_map() {
   return "object 1 class gridpositions counts 2 2 2\norigin -5 -10 -10\ndelta 10 0 0\ndelta 0 20 0\ndelta 0 0 20\n"
          "object 2 class gridconnections counts 2 2 2\nobject 3 class array type double rank 0 items 8 data follows\n"
@@ -95,7 +95,7 @@ TEST_F(ColorCommand, VolumeMapsColorThePointsOfTheSurface) {
   EXPECT_EQ(with({"--device", "software"}), shown);
   EXPECT_NE(with({"--map-offset", "1.4"}), shown);
   EXPECT_NE(with({"--color", "chain B=green"}), shown);
-  // Colours that show numbers have a light of their own.
+  // Colours that show numbers have their own light.
   const std::vector<std::string> light{"--ambient",        "0.4", "--ambient-occlusion", "0.5", "--depth-cue", "0",
                                        "--light-strength", "1",   "--specular",          "0"};
   std::vector<std::string> green{"--color", "green"}, all_green{"--color", "all=green"};
@@ -135,7 +135,7 @@ TEST_F(ColorCommand, VolumeMapsColorThePointsOfTheSurface) {
 }
 
 TEST_F(ColorCommand, WhatAMapDoesNotReachIsSaid) {
-  // A sphere of 2 Å at x = 4: a quarter of its area lies beyond x = 5. Another one lies far from all maps.
+  // A quarter of the area of a 2 Å sphere at x = 4 lies beyond x = 5. Another sphere lies far from all maps.
   const auto at = [&](const std::string& name, double x) { return folder_.file(name, fmt::format("{} 0 0 2\n", x)); };
   const std::string map = folder_.file("linear.dx", linear_map()), all = folder_.file("all.dx", [] {
     std::string text = linear_map();
@@ -188,7 +188,7 @@ TEST_F(ColorCommand, ChargesThatAMapHasAndTheSurfaceHasNotAreSaid) {
       << with({});
   EXPECT_EQ(with({"--keep-water"}).find("charges"), std::string::npos);
   EXPECT_EQ(said({}).find("charges"), std::string::npos);
-  // Chain B has no charge; an atom without a radius lies within its neighbour.
+  // Chain B has no charge; an atom without a radius lies inside its neighbour.
   EXPECT_EQ(with({"--select", "not chain B", "--keep-water"}).find("charges"), std::string::npos);
   EXPECT_NE(with({"--select", "chain B or water"}).find("(2 not selected)"), std::string::npos);
 }
@@ -204,7 +204,7 @@ TEST_F(ColorCommand, OurOwnTablesOfAreasColor) {
 }
 
 TEST_F(ColorCommand, OpacityZeroHidesAsShowDoes) {
-  // --show frames what is shown, so that all look through one camera.
+  // --show frames the shown atoms, so all pictures use one camera.
   ASSERT_EQ(render("all.png", {"--save-camera", path("camera.json")}).exit_code, 0);
   const auto seen = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--camera", path("camera.json")});
@@ -340,7 +340,7 @@ TEST_F(ColorCommand, RelativeAccessibilityIsThatOfTheTable) {
   const ProgramResult table = meniscus({"surface", file_, "--csv-residues", path("residues.csv"), "-q"});
   ASSERT_EQ(table.exit_code, 0) << table.err;
   const std::string shown = picture({"--color", "relative-accessibility"});
-  // The table is rounded, which steps of colours do not show.
+  // The table is rounded, but steps of colours do not show this.
   EXPECT_EQ(picture({"--color", "relative-accessibility", "--map", "consurf"}),
             picture({"--color-by-file", path("residues.csv"), "--color-column", "relative_sas_area", "--color-range",
                      "0:1", "--map", "consurf"}));
@@ -367,7 +367,7 @@ TEST_F(ColorCommand, NamesFromTheFileStayOutOfOtherProgramsSource) {
     EXPECT_EQ(entry.path().filename(), "surface_objects.json");
     ++with_name;
   }
-  EXPECT_EQ(with_name, 1);  // and so the name was read
+  EXPECT_EQ(with_name, 1);  // this proves that the name was read
   EXPECT_EQ(render("legend.png", {"--color", "chain", "--legend"}).exit_code, 0);
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface of a file with a polymer is that of the polymer, and pictures show its ligands and ions beside it."""
+"""The surface of a file with a polymer is that of the polymer, and pictures show its ligands and ions next to it."""
 
 import json
 import unittest
@@ -103,7 +103,7 @@ class Pictures(Companions):
                          self.picture("--bare", "--show", "within 10 of resname LIG"))
 
     def test_what_is_named_is_drawn_once(self):
-        """Whatever draws the atoms draws them alone: their shade would be darker and edges doubled otherwise."""
+        """An option draws its atoms alone, or their shade would be darker and their edges doubled."""
         for kind in ("sticks", "balls", "spheres"):
             with self.subTest(kind):
                 named = ["--" + kind, "ligand or ion", "--color", "grey"]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A chain of an assembly means one thing in every option that takes a selection: `chain B` all copies, `chain B-2` one.
-The options are those whose help has EXPR, so that a new one has to be tried here."""
+"""A chain of an assembly means the same in every option that takes a selection: `chain B` all copies, `chain B-2` one.
+The options are those whose help has EXPR, so a new option must be tried here."""
 
 import itertools
 import json
@@ -22,7 +22,7 @@ PROGRAM = sys.argv.pop(1)
 ALL, EACH, ONE = "chain B", "chain B-1 or chain B-2 or chain B-3", "chain B-2"
 RENDER = ["render", "{file}", "--assembly", "1", "-o", "{out}.png", "--size", "150x150", "--samples", "1", "--device", "cpu", "--view", "z"]
 
-# Words of a command that show what an option does with {}; what stands first is left out of --instances.
+# Words of a command that show the effect of an option with {}; --instances leaves out the first of them.
 PICTURES = {
     "--color": ["--color", "grey", "--color", "{}=red"], "--opacity": ["--opacity", "{}=0.2"], "--show": ["--show", "{}"],
     "--patches": ["--patches", "{}", "--min-patch", "0"], "--zoom-to": ["--zoom-to", "{}"],
@@ -38,9 +38,9 @@ COMMANDS = {option: RENDER + words for option, words in PICTURES.items()}
 COMMANDS["--follow"] = [word.replace("{out}", "{out}_#") for word in RENDER] + ["--frames", "all", "--follow", "{}"]
 COMMANDS["--look-into"] = [word for word in COMMANDS["--look-into"] if word not in ("--view", "z")]
 COMMANDS["--ligand"] = ["pockets", "{file}", "--assembly", "1", "--ligand", "{}", "--json"]
-# They mean atoms of a trajectory, before there are copies, or are refused with --assembly.
+# These options mean atoms of a trajectory, before there are copies, or are refused with --assembly.
 BEFORE_COPIES = {"--trajectory-atoms", "--superpose", "--center", "--superpose-on", "--context"}
-# Copies as instances cannot be drawn so.
+# Copies as instances cannot be drawn by these options.
 NOT_OF_INSTANCES = {"--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object", "--interface", "--hydrogen-bonds", "--distance"}
 
 
@@ -63,7 +63,7 @@ def ring(names, residue, chain, number, place):
 
 
 def atoms(moved=0.0):
-    """Away from the axis: a peptide A, and beside it B with a peptide, a base, a sugar and an oxygen next to the peptide's."""
+    """Returns peptide A, away from the axis, and chain B next to it: a peptide, a base, a sugar and an oxygen."""
     found = []
     for chain, y in (("A", 0.0), ("B", 4.6)):
         for n in range(4):
@@ -84,7 +84,7 @@ def trimer():
 
 
 def capsid():
-    """The 60 rotations of an icosahedron, which has six axes of five and all alike; the first of them is not the identity."""
+    """Returns the 60 rotations of an icosahedron, whose six axes are alike; the first is not the identity."""
     phi = (1 + math.sqrt(5)) / 2
 
     def about(axis, angle):
@@ -93,7 +93,7 @@ def capsid():
         return numpy.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
     generators = [about((0, 1, phi), 2 * math.pi / 5), about((1, 1, 1), 2 * math.pi / 3)]
     group = [numpy.eye(3)]
-    for element in group:  # it grows
+    for element in group:  # the list grows meanwhile
         for generator in generators:
             made = generator @ element
             if all(numpy.abs(made - known).max() > 1e-6 for known in group):
@@ -120,7 +120,7 @@ class Copies(unittest.TestCase):
         return done
 
     def results(self, words, selection, *more):
-        """The pixels of all pictures, or the tables, that the words make."""
+        """Returns the pixels of all pictures, or the tables, that the words make."""
         out = f"r{next(self.count)}"
         done = self.call([word.replace("{file}", "trimer.pdb").replace("{out}", out).replace("{}", selection) for word in words] + list(more))
         found = [json.loads(done.stdout)["left_out"]] if "--json" in words else []
@@ -162,7 +162,7 @@ class Copies(unittest.TestCase):
                 words = COMMANDS[option] + ([] if option == "--select" else ["--select", "all"])  # instances have no companions
                 made, shared = self.results(words, ALL)[0], self.results(words, ALL, "--instances", "separate")[0]
                 self.assertEqual(made.shape, shared.shape)
-                if option != "--look-into":  # instances have the first place each
+                if option != "--look-into":  # instances have the first place of each
                     self.assertLess((numpy.abs(made - shared).max(axis=2) > 8).mean(), 0.01)
                 out = f"r{next(self.count)}"
                 refused = self.call([w.replace("{file}", "trimer.pdb").replace("{out}", out).replace("{}", ONE) for w in words] +
@@ -188,7 +188,7 @@ class Copies(unittest.TestCase):
             self.assertEqual([entry["name"] for entry in colors[0]["classes"]], ["A", "B"])
 
     def test_copies_in_a_map_have_the_colors_of_their_places(self):
-        """They share a surface in files of other programs only where they look alike."""
+        """Copies share a surface in files of other programs only if they look alike."""
         (self.folder / "x.dx").write_text(
             "object 1 class gridpositions counts 2 2 2\norigin -100 -100 -100\ndelta 200 0 0\ndelta 0 200 0\ndelta 0 0 200\n"
             "object 2 class gridconnections counts 2 2 2\nobject 3 class array type double rank 0 items 8 data follows\n"
@@ -204,7 +204,7 @@ class Copies(unittest.TestCase):
                 if format == "mvs":
                     with zipfile.ZipFile(self.folder / out) as archive:
                         content = archive.read("index.mvsj")
-                if format == "blender":  # a matrix each
+                if format == "blender":  # each copy has a matrix
                     length = struct.unpack_from("<Q", content, 16)[0]
                     found.append(sum(len(each["copies"]) for each in json.loads(content[64:64 + length])["objects"]))
                 else:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Dashed lines of hydrogen bonds and distances, with their lengths, in pictures, runs and exports."""
+"""Dashed lines of hydrogen bonds and distances have their lengths in pictures, runs and exports."""
 
 import json
 import pathlib
@@ -20,7 +20,7 @@ SMALL = ["--size", "320x240", "--samples", "1", "--view", "z", "--preset", "flat
 
 
 def pair(distance, end="END\n"):
-    """An alcohol, and a carbonyl at this distance of its oxygen."""
+    """Returns an alcohol, and a carbonyl at this distance from its oxygen."""
     rows = [("HETATM", " C1", "LGA", "A", 1, (-0.5, -1.33, 0.0), "C"), ("HETATM", " O1", "LGA", "A", 1, (0.0, 0.0, 0.0), "O"),
             ("HETATM", " O2", "LGB", "B", 2, (distance, 0.0, 0.0), "O"),
             ("HETATM", " C2", "LGB", "B", 2, (distance + 0.7, 1.0, 0.0), "C")]
@@ -28,7 +28,7 @@ def pair(distance, end="END\n"):
 
 
 BONDS = ["--hide-surface", "--hydrogen-bonds", "resname LGA"]
-DASHES = 6  # of 2.8 Å, one each 0.5 Å
+DASHES = 6  # 2.8 Å have one dash per 0.5 Å
 
 
 class Dashes(MoleculeCase):
@@ -51,7 +51,7 @@ class Dashes(MoleculeCase):
 
     @staticmethod
     def dashes(pixels):
-        """The columns of runs of pixels that have the colour of dashes."""
+        """Returns the columns of runs of pixels that have the colour of dashes."""
         warm = (abs(pixels - (255, 179, 0)) < 40).all(axis=2)
         columns = warm.any(axis=0).astype(int)
         return int((numpy.diff(columns) == 1).sum())
@@ -70,7 +70,7 @@ class Dashes(MoleculeCase):
             {"representation": "hydrogen_bonds", "selection": "resname LGA to all"}), "--device", "cpu"))
 
     def test_lengths_are_text_in_vectors_where_lines_are_seen(self):
-        for more, count in (([], 2), (["--spheres", "all"], 0)):  # with its rim
+        for more, count in (([], 2), (["--spheres", "all"], 0)):  # the text and its rim
             self.made("render", "pair.pdb", "-o", "a.svg", *SMALL, *BONDS, *more)
             text = (self.folder / "a.svg").read_text()
             self.assertEqual(text.count("<text"), count)

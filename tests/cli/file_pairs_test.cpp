@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every file that a command can read with every file that it can write: no input is replaced, and no output replaces
-// another. Commands and options are those of the program's own completion and table of properties, so that a new one is
-// here by itself.
+// Combines every file that a command can read with every file that it can write: no input is replaced, and no output
+// replaces another. Commands and options are those of the program's own completion and table of properties, so that new
+// ones are included.
 #include <algorithm>
 #include <map>
 #include <regex>
@@ -76,7 +76,7 @@ class FilePairs : public ::testing::Test {
     std::filesystem::create_symlink(input_, soft_);
   }
 
-  /// The words of a command with one of its options, or of its arguments, naming this file.
+  /// Returns the words of a command in which one of its options or arguments names this file.
   Words words_with(const FileCommand& command, const std::string& input, const std::string& path) const {
     Words words = command.words;
     bool is_named = false;
@@ -84,13 +84,13 @@ class FilePairs : public ::testing::Test {
       if (argument == "COMMAND" || (!is_required && argument != input)) continue;
       words.push_back(argument == input && !is_named ? path : other_);
       is_named = is_named || argument == input;
-      if (argument != "FILE" && argument != "DIR") words.push_back(other_);  // several go together
+      if (argument != "FILE" && argument != "DIR") words.push_back(other_);  // the command takes several files
     }
     if (input.starts_with("--")) words.insert(words.end(), {input, input == "--named-view" ? "View=" + path : path});
     return words;
   }
 
-  /// The rest, so that nothing else is missing.
+  /// Adds the remaining words, so that nothing else is missing.
   void complete(Words& words, const FileCommand& command, const std::set<std::string>& given) const {
     const bool has_output = std::ranges::find(command.outputs, "--output") != command.outputs.end();
     if (has_output && !given.contains("--output")) words.insert(words.end(), {"--output", free_});
@@ -167,7 +167,7 @@ TEST_F(FilePairs, OutputsBesideARunHaveTheirOwnNames) {
                                             "-o", in + "f_##.png", "--save-camera", in + camera})
         .exit_code;
   };
-  EXPECT_EQ(render("f_0.png"), 0);  // two digits at least
+  EXPECT_EQ(render("f_0.png"), 0);  // the number has at least two digits
   EXPECT_EQ(render("f_00.png"), 2);
   EXPECT_EQ(render("f_100.png"), 2);
   std::filesystem::remove(in + "f_00.png");

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inputs are never replaced, scenes of others read and write nowhere else, and the same command makes the same
-bytes."""
+"""Inputs are never replaced, foreign scenes read and write nowhere else, and the same command makes the same bytes."""
 
 import json
 import os
@@ -35,7 +34,7 @@ INPUTS = {
 SMALL = ["--size", "32x24", "--samples", "1"]
 ON_CPU = ["--device", "cpu"]
 
-# Every option that names a file to read, and with what it is read.
+# Every option that names a file to read, with words that read it.
 READING = [
     ["render", "one.pdb"], ["render", "run.pdb", "--frames", "0"], ["render", "one.pdb", "--trajectory", "run.pdb"],
     ["render", "one.pdb", "--color-by-file", "numbers.txt"],
@@ -75,7 +74,7 @@ class Workplace(unittest.TestCase):
 
 class Files(Workplace):
     def names_of(self, name, ending=""):
-        """Other names of a file: itself, a hard link, a symbolic link."""
+        """Returns names of a file: its own, a hard link, a symbolic link."""
         place = self.folder / name
         hard, soft = self.folder / ("hard" + (ending or place.suffix)), self.folder / ("soft" + (ending or place.suffix))
         for link in (hard, soft):
@@ -126,7 +125,7 @@ class Files(Workplace):
                 self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.")])
 
     def test_names_that_nobody_typed_count_too(self):
-        """That of a picture without -o, values of --set, and the unfinished table of many molecules."""
+        """These are the name of a picture without -o, values of --set, and the unfinished table of many molecules."""
         self.assertEqual(self.run_program("render", "one.pdb", *SMALL, "-o", "one.png").returncode, 0)
         picture = (self.folder / "one.png").read_bytes()
         self.check_kept(self.run_program("render", "one.pdb", "--scene", "one.png", *SMALL, "--force"), "one.png", picture)
@@ -217,7 +216,7 @@ class ScenesOfOthers(Workplace):
         self.assertEqual(self.run_program("render", "--scene", scene).returncode, 6)
 
     def test_pictures_with_scenes_are_no_better(self):
-        """The scene in a picture, its text replaced."""
+        """The text of the scene in a picture is replaced."""
         self.assertEqual(self.run_program("render", "one.pdb", *SMALL, "-o", "inner/a.png").returncode, 0)
         picture = (self.inner / "a.png").read_bytes()
         self.assertIn(b'"file": "one.pdb"', picture)
@@ -263,7 +262,7 @@ class ScenesOfOthers(Workplace):
 
 
 class NamesInBytes(Workplace):
-    """Names that are not UTF-8, or that turn a line around."""
+    """Names that are not UTF-8, or that reverse the direction of a line."""
 
     def setUp(self):
         super().setUp()
@@ -307,7 +306,7 @@ class NamesInBytes(Workplace):
 
 
 class SameBytes(Workplace):
-    """Twice, with another clock and another number of threads."""
+    """Commands run twice, with another clock and another number of threads."""
 
     COMMANDS = [
         *[["render", "one.pdb", *SMALL, "-o", "a." + ending] for ending in ("png", "jpg", "webp", "tif", "exr")],

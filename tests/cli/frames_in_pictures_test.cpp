@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What runs of frames look like: their pictures, colours, cameras, curves and films.
+// Pictures, colours, cameras, curves and films of runs of frames.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,20 +27,20 @@ TEST_F(FramesInPictures, NumberedPictures) {
   EXPECT_EQ(render({"-o", folder + "/a_###.png"}).exit_code, 0);
   for (const char* name : {"/a_001.png", "/a_003.png", "/a_005.png"})
     EXPECT_TRUE(std::filesystem::exists(folder + name));
-  // A share has the camera of the run; the visible extent gives the same picture.
+  // A share of the run has the run's camera; the visible extent gives the same picture.
   EXPECT_EQ(render({"-o", folder + "/b_###.png", "--only", "3"}).exit_code, 0);
   EXPECT_EQ(read_bytes(folder + "/a_003.png"), read_bytes(folder + "/b_003.png"));
   EXPECT_EQ(render({"-o", folder + "/c_###.png", "--only", "3", "--extent", "visible"}).exit_code, 0);
   EXPECT_EQ(read_bytes(folder + "/a_003.png"), read_bytes(folder + "/c_003.png"));
   EXPECT_NE(read_bytes(folder + "/a_003.png"), read_bytes(folder + "/a_005.png"));
-  // A turned camera sees something else, but after whole turns the same.
+  // A turned camera shows another picture, but the same one after whole turns.
   EXPECT_EQ(render({"-o", folder + "/d_###.png", "--turntable", "0.5"}).exit_code, 0);
   EXPECT_NE(read_bytes(folder + "/d_003.png"), read_bytes(folder + "/a_003.png"));
 
   const ProgramResult unnumbered = render({"-o", folder + "/a.png"});
   EXPECT_EQ(unnumbered.exit_code, 2);
   EXPECT_NE(unnumbered.err.find("a_#####.png"), std::string::npos) << unnumbered.err;
-  EXPECT_EQ(render({"-o", folder + "/a_###.png"}).exit_code, 6);  // they exist
+  EXPECT_EQ(render({"-o", folder + "/a_###.png"}).exit_code, 6);  // the pictures exist
   EXPECT_EQ(meniscus({"render", file_, "-q", "-o", folder + "/z.png", "--turntable", "1"}).exit_code, 2);
 }
 
@@ -65,7 +65,7 @@ TEST_F(FramesInPictures, NumbersByFrameColorEachOfThem) {
     EXPECT_TRUE(bytes(name) == bytes(std::string("one_") + frame + ".png")) << frame;
   }
   EXPECT_FALSE(bytes("run_0.png") == bytes("run_1.png"));
-  // A frame without numbers fails, the others are made; a single picture is not one of a run.
+  // A frame without numbers fails, the others are made; a single picture is not a frame of a run.
   const ProgramResult gap =
       meniscus({"render", file_, "-q", "--size", "64x48", "-o", (folder.path() / "gap_#.png").string(), "--frames",
                 "0-2", "--color-by-file", run});
@@ -76,14 +76,14 @@ TEST_F(FramesInPictures, NumbersByFrameColorEachOfThem) {
       meniscus({"render", file_, "-q", "-o", (folder.path() / "a.png").string(), "--color-by-file", run});
   EXPECT_EQ(alone.exit_code, 3);
   EXPECT_NE(alone.err.find("add --frames, or leave out its column frame"), std::string::npos) << alone.err;
-  // A frame that is shown again has the numbers of the trajectory's.
+  // A repeated frame has the numbers of the trajectory's frame.
   picture("again_#.png", {"--frames", "1", "--repeat", "2", "--color-by-file", run});
   EXPECT_TRUE(bytes("again_2.png") == bytes("again_3.png"));
   picture("second_#.png", {"--frames", "1", "--color-by-file", run});
   EXPECT_TRUE(bytes("again_2.png") == bytes("second_1.png"));
 }
 
-// One scale for all frames, whatever is in the first.
+// All frames have one scale, whatever the first one contains.
 TEST_F(FramesInPictures, WhatColorsMeanIsMeasuredOverTheRun) {
   const TemporaryFolder folder;
   const auto key = [&](const std::string& name, std::vector<std::string> options) {
@@ -153,7 +153,7 @@ TEST_F(FramesInPictures, Film) {
                            "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", folder + "/a.mp4"});
   EXPECT_EQ(probe.out, "64,48,12/1,8\n");
   EXPECT_EQ(render({"-o", folder + "/c.mp4", "--size", "63x48"}).exit_code, 2);
-  // A film with a hole is not a film, and nothing stays behind.
+  // A film with a missing frame is not made, and no file remains.
   const std::string bad = folder_.file("bad.pdb", walk(5, 2));
   EXPECT_EQ(meniscus({"render", bad, "-q", "--size", "64x48", "--frames", "all", "-o", folder + "/d.mp4"}).exit_code,
             3);
@@ -163,7 +163,7 @@ TEST_F(FramesInPictures, Film) {
       0);
 }
 
-// Decoded, each picture of a film is nearest to the one of its own frame, and there is one for each.
+// Each decoded picture of a film is nearest to the picture of its own frame, and there is one for each frame.
 TEST_F(FramesInPictures, AFilmShowsEachFrameInItsPlace) {
   const std::string folder = folder_.path().string();
   const std::vector<std::string> view{"render", file_, "-q",        "--size", "64x48",        "--frames", "all",
@@ -218,7 +218,7 @@ TEST_F(FramesInPictures, ACurveGoesAlong) {
   };
   ASSERT_EQ(render({"--curve", table}).exit_code, 0);
   const std::string whole = read_bytes(folder + "/c_05.png"), other = read_bytes(folder + "/c_06.png");
-  // A share of the run has the same pictures; another column, none and another frame have others.
+  // A share of the run has the same pictures; with another column, without a curve and in another frame they differ.
   ASSERT_EQ(render({"--curve", table, "--only", "5"}).exit_code, 0);
   EXPECT_EQ(read_bytes(folder + "/c_05.png"), whole);
   ASSERT_EQ(render({"--curve", table, "--curve-column", "volume", "--only", "5"}).exit_code, 0);

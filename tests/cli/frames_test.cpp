@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs of frames as a user makes them: which frames, what is prepared, what fails and how it is told.
+// Runs of frames of users: the choice of frames, their preparation, failures and their reports.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -69,7 +69,7 @@ TEST_F(Frames, WhichOnes) {
   EXPECT_EQ(numbers({"--frames", "all", "--only", "6,1"}), (std::vector<int>{6, 1}));
 }
 
-// Chosen first, then repeated: of each frame of the run as many, with its number in tables.
+// Frames are chosen first, then repeated: each frame of the run as often, with its number in tables.
 TEST_F(Frames, AreRepeatedOnceTheyAreChosen) {
   EXPECT_EQ(numbers({"--repeat", "3", "--frames", "0-5"}).size(), 18u);
   EXPECT_EQ(numbers({"--repeat", "2", "--frames", "3-4"}), (std::vector<int>{3, 3, 4, 4}));
@@ -86,7 +86,7 @@ TEST_F(Frames, AreRepeatedOnceTheyAreChosen) {
   for (const int n : {3, 4, 5}) EXPECT_TRUE(std::filesystem::exists(fmt::format("{}/turn_{}.png", folder, n))) << n;
 }
 
-// Files round: what is at a bound but for a small part of the step is there.
+// Files round times: a frame at a bound, except for a small part of the step, belongs to the run.
 TEST_F(Frames, OfABoundInTimeBelongToTheRun) {
   std::string text;
   for (const char* time : {"0.00000", "9.99999", "20.00001", "30.00000"})
@@ -115,7 +115,7 @@ TEST_F(Frames, SuperpositionMovesButDoesNotChange) {
   for (int n = 0; n < 8; ++n) EXPECT_NEAR(plain[n]["area"].get<double>(), moved[n]["area"].get<double>(), 1e-6);
 }
 
-/// An alanine without hydrogens in boxes of 2 nm (the second one sheared), moved by `shift` nm and cut at the faces.
+/// Returns an alanine in boxes of 2 nm (the second one sheared), moved by `shift` nm and cut at the faces.
 std::string cut_gro(double shift) {
   const double sites[5][3] = {{0, 0, 0}, {0.146, 0, 0}, {0.201, 0.142, 0}, {0.125, 0.239, 0}, {0.199, -0.077, -0.12}};
   const char* names[5] = {"N", "CA", "C", "O", "CB"};
@@ -126,7 +126,7 @@ std::string cut_gro(double shift) {
       double x = sites[n][0] + shift, y = sites[n][1] + shift;
       if (y >= 2.0) {
         y -= 2.0;
-        if (frame == 1) x -= 0.5;  // the sheared box's b is (0.5, 2, 0)
+        if (frame == 1) x -= 0.5;  // the vector b of the sheared box is (0.5, 2, 0)
       }
       if (x >= 2.0) x -= 2.0;
       text += fmt::format("    1ALA  {:>5}{:>5}{:>8.3f}{:>8.3f}{:>8.3f}\n", names[n], n + 1, x, y, sites[n][2] + 1.0);
@@ -190,7 +190,7 @@ TEST_F(Frames, GoOnAfterABadOne) {
   EXPECT_EQ(progress[6]["done"], 4);
 }
 
-/// Everything below a folder: paths and contents.
+/// Returns the paths and contents of everything below a folder.
 std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -228,7 +228,7 @@ TEST_F(Frames, AreTheSameHoweverManyAreMadeAtOnce) {
   }
 }
 
-// GL belongs to one thread, so what is verified by it is made one after another.
+// GL belongs to one thread, so frames that it verifies are made one after another.
 TEST_F(Frames, AreVerifiedHoweverManyAreAskedFor) {
   EXPECT_EQ(surface({"--frames", "all", "--verify", "--jobs", "3"}).size(), 8u);
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The help of every command: short headings, sentences that begin with a capital letter, units outside of brackets."""
+"""The help of every command has short headings, sentences with a capital letter, and units outside of brackets."""
 
 import re
 import subprocess
@@ -7,7 +7,7 @@ import sys
 import unittest
 
 PROGRAM = sys.argv.pop(1)
-LONGEST_SECTION = 15  # options under one heading, as far as a reader takes them in at once
+LONGEST_SECTION = 15  # options under one heading that a reader can take in at once
 
 
 def help_of(*command):
@@ -15,7 +15,7 @@ def help_of(*command):
 
 
 def commands():
-    """All commands, those below export and farm too, as lists of words."""
+    """Returns all commands as lists of words, including those below export and farm."""
     def below(*command):
         lists = re.split(r"\n(?:Commands|Formats):\n", help_of(*command))[1:]
         return [name for text in lists for name in re.findall(r"^  ([a-z]+) ", text, re.M)]
@@ -27,7 +27,7 @@ def commands():
 
 
 def sections(text):
-    """Headings of a help and the names of the options under each."""
+    """Returns the headings of a help and the names of the options under each."""
     found = {}
     for line in text.splitlines():
         if re.fullmatch(r"\w[\w ]*:", line):

@@ -22,7 +22,7 @@ def row(shift=(0.0, 0.0)):
 
 
 class LargeMolecules(unittest.TestCase):
-    """Rows of balls that a probe rolls around, apart from one another. Blocks divide all of them."""
+    """Rows of balls that are apart from one another, around which a probe rolls. Blocks divide all of them."""
 
     @classmethod
     def setUpClass(cls):
@@ -60,7 +60,7 @@ class LargeMolecules(unittest.TestCase):
         picture = ("render", "all.xyzr", "--device", "cpu", "--size", "320x240", "--samples", "1")
         self.run_program(*picture, "-o", "blocks.exr")
         most = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-        self.run_program(*picture, "-o", "whole.exr", "--aovs")  # components have names: by the borders of all
+        self.run_program(*picture, "-o", "whole.exr", "--aovs")  # components have names, which need the borders of all
         self.assertGreater(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, most)
         (some, blocks), (names, whole) = (self.pixels(name) for name in ("blocks.exr", "whole.exr"))
         self.assertGreater(len(numpy.unique(whole[:, :, names.index("component")])), LENGTH)

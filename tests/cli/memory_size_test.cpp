@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much memory there is: of the machine, or less by control groups.
+// The size of the memory: that of the machine, or less because of control groups.
 #include "app/process/program_main.h"
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A test case that runs the program on small PDB files of its own. The first argument of the script is the program."""
+"""A test case that runs the program on its own small PDB files. The first argument of the script is the program."""
 
 import subprocess
 import sys

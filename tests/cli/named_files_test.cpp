@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files that options name are read before anything is computed, and results that only look right are reported: atoms in
-// another order, pictures of nothing.
+// another order, pictures that show nothing.
 #include <algorithm>
 #include <sstream>
 
@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
-/// Two residues, in models that drift along x; `reversed`: atoms in the opposite order.
+/// Returns two residues, in models that drift along x; `reversed`: atoms in the opposite order.
 std::string dipeptide(int models, bool reversed = false) {
   const char* names[] = {"N", "CA", "C", "O", "CB"};
   const double sites[][3] = {{0, 0, 0}, {1.46, 0, 0}, {2.0, 1.42, 0}, {1.25, 2.39, 0}, {2.0, -0.8, -1.2}};
@@ -78,7 +78,7 @@ TEST_F(NamedFiles, ABadCameraEndsTheProgramBeforeTheMoleculeIsRead) {
 }
 
 TEST_F(NamedFiles, NumbersAndPartsAreCheckedBeforeTheSurfaceIsComputed) {
-  // The device that does not exist is asked for only when a surface is computed.
+  // The missing device is requested only when a surface is computed.
   const Words command{"render", molecule_, "-o", path("a.png"), "--device", "gpu:77"};
   EXPECT_EQ(meniscus(command).exit_code, 4);
   const std::string few = folder_.file("few.txt", "1 2 3\n");
@@ -105,7 +105,7 @@ TEST_F(NamedFiles, PicturesOfNothingSaySo) {
   EXPECT_TRUE(warns({"40x30", "--camera", away}));
   EXPECT_TRUE(warns({"40x30", "--camera", away, "--extent", "visible", "--background", "white"}));
   EXPECT_TRUE(warns({"640x480", "--camera", away, "--legend", "--color", "chain"}));
-  // A close look at what --show hides.
+  // The camera looks closely at atoms that --show hides.
   const std::string narrow = folder_.file(
       "narrow.json", R"({"position":[0,0,50],"target":[0,0,0],"up":[0,1,0],"projection":"orthographic","height":0.5})");
   EXPECT_FALSE(warns({"40x30", "--camera", narrow}));
@@ -115,7 +115,7 @@ TEST_F(NamedFiles, PicturesOfNothingSaySo) {
 
 TEST_F(NamedFiles, OneLineForAllPicturesOfARunThatShowNothing) {
   const std::string file = folder_.file("drift.pdb", dipeptide(4)),
-                    first = folder_.file("first.json", camera("2,1,40", "2,1,0"));  // 30 Å see the first frame only
+                    first = folder_.file("first.json", camera("2,1,40", "2,1,0"));  // 30 Å show the first frame only
   const ProgramResult result = meniscus({"render", file, "--frames", "all", "--camera", first, "--size", "40x40", "-o",
                                          path("f_#.png"), "--progress", "json"});
   EXPECT_EQ(result.exit_code, 0) << result.err;

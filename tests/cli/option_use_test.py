@@ -17,10 +17,10 @@ from pathlib import Path
 
 PROGRAM = sys.argv.pop(1)
 
-# They say how the work is done or what is told of it, and leave the result as it is.
+# These options change how the work is done or what is reported, but not the result.
 HOW = {"--threads", "--jobs", "--serve", "--no-open", "--token-file", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--verbose", "--trust-host", "--help",
        "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--any-cost", "--trust-atom-order", "--addon"}
-# They say what to do with something that a file may hold, and are right to be silent where it does not.
+# These options are for things that a file may contain; without them they have no effect and no message.
 POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
             "--select-once", "--cavities", "--instances", "--min-volume", "--cap-color", "--cap-hatching",
             "--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object",
@@ -35,7 +35,7 @@ def pdb(atoms, record="ATOM"):
 
 
 def molecule(models, turn=0.4, water=True, broken=False, shift=0.0):
-    """Two chains, a ligand, water, an ion, a hydrogen and alternate locations; each model is turned and moved."""
+    """Returns two chains, a ligand, water, an ion, a hydrogen and alternate locations, in models that move."""
     atoms = [("N", " ", "ALA", "A", 1, 0.0, 0.0, 0.0, "N"), ("CA", " ", "ALA", "A", 1, 1.46, 0.0, 0.0, "C"),
              ("C", " ", "ALA", "A", 1, 2.0, 1.42, 0.0, "C"), ("O", " ", "ALA", "A", 1, 1.3, 2.4, 0.1, "O"),
              ("CB", " ", "ALA", "A", 1, 2.0, -0.8, 1.2, "C"), ("H", " ", "ALA", "A", 1, -0.5, 0.8, 0.3, "H"),
@@ -61,7 +61,7 @@ def molecule(models, turn=0.4, water=True, broken=False, shift=0.0):
 
 
 def sphere(lid, models=1):
-    """Atoms on a sphere, which has a cavity; or without its lid, so that it is a pocket. Models are moved."""
+    """Returns atoms on a sphere with a cavity; without its lid, it is a pocket. Models are moved."""
     points = [(math.acos(1 - 2 * (n + 0.5) / 44), math.pi * (1 + 5 ** 0.5) * n) for n in range(44)]
     places = [(5 * math.sin(a) * math.cos(b), 5 * math.sin(a) * math.sin(b), 5 * math.cos(a)) for a, b in points]
     lines = []
@@ -73,7 +73,7 @@ def sphere(lid, models=1):
 
 
 def rings():
-    """A base and a sugar, each a flat ring."""
+    """Returns a base and a sugar, each a flat ring."""
     atoms = [(name, " ", residue, "A", number, 1.4 * math.cos(math.pi * n / 3) + 8 * number, 1.4 * math.sin(math.pi * n / 3), 0.0, name[0])
              for number, residue, names in ((1, "LIG", "N1 C2 N3 C4 C5 C6"), (2, "NAG", "C1 C2 C3 C4 C5 O5"))
              for n, name in enumerate(names.split())]
@@ -81,12 +81,12 @@ def rings():
 
 
 def pair():
-    """Two oxygens with a hydrogen bond."""
+    """Returns two oxygens with a hydrogen bond."""
     return "\n".join(pdb([("O1", " ", "LGA", "A", 1, 0.0, 0.0, 0.0, "O"), ("O1", " ", "LGB", "B", 2, 2.8, 0.0, 0.0, "O")], "HETATM") + ["END", ""])
 
 
 def potential():
-    """A volume map around the molecule that falls along x."""
+    """Returns a volume map around the molecule that falls along x."""
     values = "\n".join(f"{0.3 * x - 2.0:.3f}" for x in range(14) for _ in range(14 * 14))
     return ("object 1 class gridpositions counts 14 14 14\norigin -12 -14 -8\ndelta 2.5 0 0\ndelta 0 2.5 0\n"
             "delta 0 0 2.5\nobject 2 class gridconnections counts 14 14 14\n"
@@ -113,14 +113,14 @@ INPUTS = {
     "bent.pdb": molecule(1).replace("   2.000  -0.800   1.200", "   2.000  -0.900   0.700"),
     "look.jsonl": "", "other.jsonl": '{"command": "set", "key": "surface.color", "value": "chain"}\n',
 }
-# What a preview is asked for: its state and a picture of each frame.
+# Questions to a preview: its state and a picture of each frame.
 QUESTIONS = [{"command": "state"}, {"command": "render_command"}]
 for frame in range(4):
     QUESTIONS += [{"command": "export", "format": "png", "path": f"p{frame}.png", "wait": True, "force": True}, {"command": "next_frame"}]
 for name in ("look.jsonl", "other.jsonl"):
     INPUTS[name] += "".join(json.dumps(question) + "\n" for question in QUESTIONS + [{"command": "quit"}])
 
-# What must be there for an option to do anything, as words of a command; {name} is an input.
+# The conditions under which an option has an effect, as words of a command; {name} is an input.
 CONTEXTS = {
     "plain": ["{one.pdb}"], "added": ["{one.pdb}", "--add", "{moved.pdb}"], "models": ["{run.pdb}"], "odd": ["{odd.pdb}"],
     "frames": ["{run.pdb}", "--frames", "all"], "film": ["{run.pdb}", "--frames", "0-1"], "usd": ["{run.pdb}", "--frames", "0-1"],
@@ -164,7 +164,7 @@ CONTEXTS = {
     "bundle": [], "bundled film": ["--film", "f.mp4"], "": [],
 }
 
-# Of each option a value, and a context in which it changes what comes out.
+# For each option, a value and a context in which it changes the result.
 ROWS = {
     "--add": ("{moved.pdb}", "plain"), "--superpose-on": ("backbone", "added"), "--model": ("2", "models"), "--altloc": ("all", "plain"), "--select": ("chain A", "plain"),
     "--show": ("chain A", "plain"), "--bare": (None, "plain"), "--keep-water": (None, "plain"), "--keep-ions": (None, "plain"),
@@ -219,7 +219,7 @@ ROWS = {
     "--unit": ("nanometer", "plain"), "--scale": ("3", "plain"), "--voxel": ("1", "plain"), "--band": ("1", "plain"),
 }
 
-# Options of which the help says nothing, as few need them.
+# Options that the help leaves out, because few users need them.
 RARE = {
     **{option: ("render", "preview") for option in ("--outer-lines", "--inner-lines", "--part-lines", "--linear-alpha")},
     "--legend-place": ("render", "preview", "panels", "film"),
@@ -231,7 +231,7 @@ RARE = {
                      "export atoms"),
 }
 
-# Where it takes another value or another context.
+# Commands for which an option has another value or another context.
 OWN_ROWS = {
     ("surface", "--hydrogens"): ("drop", "plain"), ("surface", "--resume"): (None, "summary"), ("pockets", "--show"): ("chain A", "pocket figure"),
     ("pockets", "--select-once"): (None, "moving"),
@@ -307,14 +307,14 @@ def output_of(command, context):
 
 
 def options_of(command):
-    """The options of a command, from its help, and those that the help leaves out."""
+    """Returns the options of a command from its help, and those that the help leaves out."""
     text = subprocess.run([PROGRAM, *command.split(), "--help-all"], capture_output=True, text=True).stdout
     shown = set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", text, re.M)) - {"--output"}
     return sorted(shown | {option for option, commands in RARE.items() if command in commands})
 
 
 class Result:
-    """What came of one run: what is printed, but for times, and the files."""
+    """The result of one run: its printed text without times, and its files."""
 
     def __init__(self, words, folder):
         with tempfile.TemporaryDirectory(dir=folder) as place:
@@ -329,7 +329,7 @@ class Result:
 
 
 class OptionUse(unittest.TestCase):
-    """Every option alone, in the context that it is for, and where there are frames, a cut or constant colours."""
+    """Every option is tried alone, in its own context, and with frames, a cut or constant colours."""
 
     @classmethod
     def setUpClass(cls):
@@ -355,7 +355,7 @@ class OptionUse(unittest.TestCase):
         return self.pool.submit(Result, words, self.folder)
 
     def words(self, command, context, option, value):
-        """Of the run with the option; without its last part it is the one without."""
+        """Returns the words of the run with the option; without their last part, those without it."""
         def filled(word):
             if command == "pockets":
                 word = word.replace("{run.pdb}", "{cups.pdb}")
@@ -383,7 +383,7 @@ class OptionUse(unittest.TestCase):
         return (*command.split(), *words, *tail), (*command.split(), *words, *asked, *tail)
 
     def pairs(self, contexts):
-        """(command, option, context, is it what the option is for, base, with it)"""
+        """Yields (command, option, context, whether it is the option's own, base, with the option)."""
         pairs = []
         for command in TESTED:
             options = options_of(command)
@@ -439,14 +439,14 @@ class OptionUse(unittest.TestCase):
 
 TESTED = ["surface", "pockets", "info", "render", "film", "panels", "looks", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
           "export mvs", "export mesh", "export ply", "export vdb", "export atoms", "export page", "formats", "farm bundle"]
-# What it is for is nothing that the command can do, or not with an output of that name.
+# The command lacks the feature of the option, or lacks it for an output of that name.
 REFUSED = {("pockets", "--instances"), ("export vdb", "--instances"), ("export atoms", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
            *((f"export {mesh}", option) for mesh in ("mesh", "ply", "vdb") for option in ("--frames", "--trajectory")),
            ("preview", "--color-map-file"), ("preview", "--map-offset"), ("export atoms", "--color-map-file"), ("export atoms", "--map-offset"), ("export pbrt", "--color-map-file"),
            ("export pbrt", "--map-offset"), ("export mitsuba", "--cap-hatching"), ("export mitsuba", "--film-opacity"),
            ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity"), ("export page", "--object"),
            ("export mvs", "--cap-hatching"), ("export mvs", "--film-opacity"), ("export mvs", "--material")}
-# There are no pockets in what is made whole, a cavity is not seen from outside, and copies that stand apart look the same.
+# Complete molecules have no pockets, a cavity is not visible from outside, and separate copies look the same.
 SILENT = {("pockets", "--whole"), ("export ply", "--preset"), ("render", "--instances"), ("render", "--cavities")}
 
 if __name__ == "__main__":

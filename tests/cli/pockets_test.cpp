@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus pockets` as users call it: the place of a ligand, what is printed and written, frames, and bad input.
+// `meniscus pockets` for users: the place of a ligand, printed and written output, frames, and bad input.
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -32,7 +32,7 @@ ProgramResult render(Words words) {
   return run_program(meniscus_program(), words);
 }
 
-/// A wall of carbon atoms around the z axis, 20 Å long; with `lid` closed below.
+/// Returns a wall of carbon atoms around the z axis, 20 Å long; `lid` closes it below.
 std::string tube(bool lid) {
   std::string text;
   int serial = 0;
@@ -49,7 +49,7 @@ std::string tube(bool lid) {
   return text;
 }
 
-// A protease with its inhibitor (1HPV), a methylase with DNA and cofactor (3MHT), an antibody with its hapten (1A0Q).
+// A protease has its inhibitor (1HPV), a methylase DNA and cofactor (3MHT), an antibody its hapten (1A0Q).
 TEST(Pockets, WhereALigandWasIsFoundFirst) {
   struct Case {
     const char* file;
@@ -117,7 +117,7 @@ TEST(Pockets, TablesMeshesAndFiguresSayTheSame) {
   EXPECT_EQ(scene["objects"][1]["selection"], "ligand");
   EXPECT_EQ(scene["objects"][0]["color"].size(), 2u);
 
-  EXPECT_EQ(pockets({kProtease, "--mesh", mesh, "-q"}).exit_code, 6);  // it exists
+  EXPECT_EQ(pockets({kProtease, "--mesh", mesh, "-q"}).exit_code, 6);  // the mesh exists
   EXPECT_EQ(pockets({kProtease, "--mesh", mesh, "-q", "--force"}).exit_code, 0);
 }
 
@@ -195,7 +195,7 @@ TEST(Pockets, WhatMakesNoSenseIsSaid) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.ply"));
 }
 
-// What the table does not show: a ligand beside the molecule, and a peptide in a chain of its own.
+// The table lacks a ligand next to the molecule, and a peptide in its own chain, so a note names them.
 TEST(Pockets, LigandsInNoPocketAndShortChainsAreNamed) {
   const TemporaryFolder folder;
   std::string text = tube(true);

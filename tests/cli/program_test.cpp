@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's promises: help, JSON, exit codes for options, what goes to stdout and what to stderr.
+// The program's promises: help, JSON, exit codes for options, and the use of stdout and stderr.
 #include <algorithm>
 #include <cmath>
 #include <regex>
@@ -50,12 +50,12 @@ TEST(Help, ExamplesComeBeforeOptions) {
 TEST(Help, VersionIsOneLine) {
   const ProgramResult result = meniscus_says({"--version"});
   EXPECT_EQ(result.exit_code, 0);
-  // The version, and the commit or, without a repository, a checksum of the sources.
+  // The text has the version, and the commit or, without a repository, a checksum of the sources.
   const std::regex expected("meniscus " MENISCUS_VERSION R"(\+[gs][0-9a-f]{12}(\.dirty\.[0-9a-f]{12})?\n)");
   EXPECT_TRUE(std::regex_match(result.out, expected)) << result.out;
 }
 
-// It and the libraries it brings take a quarter of a second: they come with the first picture (core/image).
+// OpenImageIO and its libraries take a quarter of a second, so they are loaded with the first picture (core/image).
 TEST(Start, OpenImageIOIsNotLoadedForNothing) {
   const ProgramResult linked = test::run_program("/usr/bin/ldd", {test::meniscus_program()});
   ASSERT_EQ(linked.exit_code, 0) << linked.err;
@@ -138,7 +138,7 @@ TEST(Surface, NumbersOfTheToxinAreTheIndependentOnes) {
   EXPECT_NEAR(volume, result["volume"].get<double>(), 1e-6);
 }
 
-// Five spheres through one point: without the growth they have no surface, and whoever quotes its area must know of it.
+// Five spheres through one point have no surface unless radii grow, and a user of its area must know that.
 TEST(Surface, SaysByHowMuchRadiiGrew) {
   const std::vector<std::string> tied{test::test_file("corpus/one-point-4239.xyzr"), "--probe", "0.5"};
   for (const std::string device : {"cpu", "software"}) {
@@ -157,7 +157,7 @@ TEST(Surface, SaysByHowMuchRadiiGrew) {
   EXPECT_EQ(meniscus_says({"surface", kUbiquitin, "--device", "cpu"}).out.find("exact for radii"), std::string::npos);
 }
 
-// Two balls of radius 1 and a probe of 1.5: BALL 1.5 states these areas, and so does the closed form.
+// BALL 1.5 states these areas of two balls of radius 1 and a probe of 1.5, and so does the closed form.
 TEST(Surface, TwoSpheresOfTheLiterature) {
   const TemporaryFolder folder;
   EXPECT_NEAR(surface_json({folder.file("far.xyzr", "0 0 0 1\n10 0 0 1\n"), "--probe", "1.5"})["area"].get<double>(),
@@ -281,7 +281,7 @@ TEST(Device, AMissingGpuIsExitFour) {
   EXPECT_EQ(result.exit_code, 4) << result.err;
 }
 
-// A machine with a GPU computes; one without must not fall back to anything else.
+// A machine with a GPU computes; one without a GPU must not use anything else.
 TEST(Device, ARequiredGpuIsAGpuOrExitFour) {
   for (const char* device : {"cpu", "software"}) {
     const ProgramResult result = meniscus_says({"surface", kUbiquitin, "--require-gpu", "--device", device});

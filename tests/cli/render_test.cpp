@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus render` as a user runs it: files, cameras, and what is refused.
+// `meniscus render` for users: files, cameras, and errors.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -21,7 +21,7 @@ class RenderCommand : public ::testing::Test {
  protected:
   ProgramResult render(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"render", molecule_, "--size", "40x30"});
-    // Pictures are compared by their bytes: without the options that made them.
+    // Pictures are compared by their bytes, so they lack the options that made them.
     if (std::ranges::find(arguments, "--provenance") == arguments.end()) arguments.emplace_back("--no-provenance");
     return test::run_program(test::meniscus_program(), arguments);
   }
@@ -142,7 +142,7 @@ TEST_F(RenderCommand, LooksAreChecked) {
   EXPECT_EQ(render({"-o", path("pt.png"), "--silhouettes", "1.5pt", "--dpi", "144"}).exit_code, 0);
   EXPECT_EQ(render({"-o", path("px.png"), "--silhouettes", "3", "--dpi", "144"}).exit_code, 0);
   EXPECT_EQ(test::read_bytes(path("pt.png")), test::read_bytes(path("px.png")));
-  // Without shade its radius does nothing.
+  // Without shade, its radius has no effect.
   EXPECT_EQ(render({"-o", path("a.png"), "--ambient-occlusion", "0"}).exit_code, 0);
   EXPECT_EQ(render({"-o", path("b.png"), "--ambient-occlusion-radius", "3", "--ambient-occlusion", "0"}).exit_code, 0);
   EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));

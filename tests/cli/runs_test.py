@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A picture is a run of one frame: what a command makes of one model, it makes of the frame of a run that is this model."""
+"""A picture is a run of one frame: a command makes the same of a model and of a frame that is this model."""
 
 import json
 import math
@@ -19,7 +19,7 @@ CAMERA = {"position": [4.0, 1.0, 60.0], "target": [4.0, 1.0, 0.0], "up": [0.0, 1
 
 
 def models(count):
-    """Five residues of two atoms; each model is a little longer than the one before."""
+    """Returns five residues of two atoms; each model is a little longer than the one before."""
     lines = []
     for model in range(count):
         lines.append(f"MODEL     {model + 1:4d}")
@@ -32,7 +32,7 @@ def models(count):
 
 
 def pairs(count, apart=None):
-    """Two slabs, chains A and B, that touch, but in the model `apart`; from model to model B slides and leans out."""
+    """Returns two slabs, chains A and B, which touch except in the model `apart`; B slides and leans out."""
     lines = []
     for model in range(count):
         lines.append(f"MODEL     {model + 1:4d}")
@@ -45,7 +45,7 @@ def pairs(count, apart=None):
 
 
 def shells(count):
-    """Atoms on a sphere, around a cavity; in the second model they are scattered and enclose nothing."""
+    """Returns atoms on a sphere, around a cavity; in the second model they are scattered and enclose nothing."""
     lines = []
     for model in range(count):
         lines.append(f"MODEL     {model + 1:4d}")
@@ -59,7 +59,7 @@ def shells(count):
     return "\n".join(lines + ["END", ""])
 
 
-#: Chain A stands twice: as it is, and turned half around z, 40 Å aside.
+#: Chain A has two places: unchanged, and turned half around z, 40 Å to the side.
 ASSEMBLY = """REMARK 350 BIOMOLECULE: 1
 REMARK 350 APPLY THE FOLLOWING TO CHAINS: A
 REMARK 350   BIOMT1   1  1.000000  0.000000  0.000000        0.00000
@@ -152,7 +152,7 @@ class RunsLikePictures(unittest.TestCase):
         self.assertGreater(shapes[0], 1)
 
     def check_meshes(self, *words):
-        """Of each frame the mesh is that of its model."""
+        """The mesh of each frame is that of its model."""
         self.run_program("export", "mesh", *words, "--frames", "all", "-o", "mesh_#.ply", "-q", "--force")
         for n in range(3):
             self.run_program("export", "mesh", *words, "--model", str(n + 1), "-o", "one.ply", "-q", "--force")
@@ -169,12 +169,12 @@ class RunsLikePictures(unittest.TestCase):
             self.run_program("render", "pair.pdb", "--model", str(n + 1), "-o", f"one_{n}.png", *words)
             self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"one_{n}.png")).all(), n)
         self.assertFalse((self.pixels("one_0.png") == self.pixels("one_2.png")).all())
-        # One scale for all frames, up to the most that any has, and one camera that sees the pages of all.
+        # All frames have one scale, up to the largest number of any, and one camera that shows the pages of all.
         self.run_program("render", "pair.pdb", "--frames", "2", "-o", "alone_#.png", *size)
         self.run_program("render", "pair.pdb", "--model", "3", "-o", "alone.png", *size)
         self.assertTrue((self.pixels("alone_2.png") == self.pixels("alone.png")).all())
         self.run_program("render", "pair.pdb", "--frames", "all", "-o", "g_#.png", *size)
-        # The workers of a bundle are given both.
+        # The workers of a bundle get both.
         self.run_program("farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", "render", "pair.pdb",
                          "--frames", "all", *size[:-1])
         self.assertIn("--color-range", (self.folder / "bundle/bundle.json").read_text())
@@ -192,7 +192,7 @@ class RunsLikePictures(unittest.TestCase):
         self.assertEqual(sorted(path.name for path in self.folder.glob("f_*.png")), ["f_0.png", "f_2.png"])
 
     def test_assemblies(self):
-        """Copies go where their motions take each frame, as atoms or as one surface that stands twice."""
+        """Copies follow the motions of each frame, as atoms or as one surface in two places."""
         (self.folder / "twice.pdb").write_text(ASSEMBLY + models(3))
         wide = {**CAMERA, "position": [20.0, 1.0, 60.0], "target": [20.0, 1.0, 0.0], "height": 36.0}
         shown = []
@@ -247,7 +247,7 @@ class RunsLikePictures(unittest.TestCase):
         self.assertLess(hidden.stat().st_size, both.stat().st_size)
 
     def test_a_legend_beside_a_bundle(self):
-        """It is written when the bundle is made, as the command itself writes it; workers have nothing to do with it."""
+        """The legend is written when the bundle is made, as the command itself writes it; workers do not write it."""
         words = ["render", "run.pdb", "--frames", "all", "--color", "radial", "--size", "480x360", "--samples", "1"]
         self.run_program(*words, "-o", "f_#.png", "--legend-file", "legend.png", "-q")
         bundle = ["farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", *words, "--legend-file", "beside.png"]
@@ -256,13 +256,13 @@ class RunsLikePictures(unittest.TestCase):
         self.assertNotIn("legend", (self.folder / "bundle/bundle.json").read_text())
         self.run_program("work", "bundle")
         self.assertTrue((self.pixels("f_2.png") == self.pixels("bundle/images/frame_00002.png")).all())
-        self.run_program(*bundle)  # there is nothing to do
+        self.run_program(*bundle)  # this finds nothing to do
         done = subprocess.run([PROGRAM, *bundle[:2], "other", *bundle[3:]], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 6, done.stderr)
         self.assertFalse((self.folder / "other").exists())
 
     def test_views_without_the_whole_surface(self):
-        """Colours, selections and labels are those of each frame; so is what --stats tells."""
+        """Colours, selections, labels and the output of --stats are those of each frame."""
         words = ["--extent", "visible", "--device", "software", "--camera", json.dumps(CAMERA), "--size", "160x120", "--samples", "1",
                  "--color", "radial", "--color-range", "0:9", "--select", "within 7.6 of resid 1", "--label", "name CA=C"]
         done = subprocess.run([PROGRAM, "render", "run.pdb", "--frames", "all", "-o", "f_#.png", "--stats", "-q", *words],
@@ -274,7 +274,7 @@ class RunsLikePictures(unittest.TestCase):
             self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"one_{n}.png")).all(), n)
         self.assertEqual([number for number, _ in kept], ["0", "1", "2"])
         self.assertGreater(int(kept[0][1]), int(kept[2][1]))
-        # Layers have components and atoms of the file, which a view does not know, in a run as little as in a picture.
+        # Layers need components and atoms of the file, which a view lacks, in a run as in a picture.
         for choice in ("--frames", "1", "-o", "a_#.exr"), ("--model", "1", "-o", "a.exr"):
             done = subprocess.run([PROGRAM, "render", "run.pdb", *choice, "--extent", "visible", "--aovs"], cwd=self.folder,
                                   capture_output=True, text=True)
@@ -282,7 +282,7 @@ class RunsLikePictures(unittest.TestCase):
             self.assertIn("--aovs needs the complete surface", done.stderr)
 
     def check_frames(self, run, models):
-        """Pictures of a run, and of each model by the words that its frame has."""
+        """Compares pictures of a run with those of each model by the words of its frame."""
         size = ["--camera", json.dumps(CAMERA), "--size", "160x120", "--samples", "1", "-q", "--force"]
         self.run_program("render", "run.pdb", "--frames", "all", "-o", "f_#.png", *size, *run)
         for n, words in enumerate(models):
@@ -291,7 +291,7 @@ class RunsLikePictures(unittest.TestCase):
         self.assertFalse((self.pixels("one_0.png") == self.pixels("one_2.png")).all())
 
     def test_numbers_of_a_file_where_atoms_come_and_go(self):
-        """One scale for all frames: that of all numbers."""
+        """All frames have one scale, that of all numbers."""
         color = ["--color", "file", "--sticks", "within 4 of resid 2", "--color-by-file"]
         rows = [[f"{n},{(n + 3 * frame) % 7}\n" for n in range(1, 11)] for frame in range(3)]
         (self.folder / "moving.csv").write_text(
@@ -309,7 +309,7 @@ class RunsLikePictures(unittest.TestCase):
                         for path in (f"povray/surface_geometry_{n:05}.inc", f"one_{n}/surface_geometry.inc"))
             self.assertGreater(len(one), 10)
             self.assertEqual(run, one, n)
-        # What stands beside the surface has names, too.
+        # Objects next to the surface have names, too.
         self.run_program("export", "povray", "run.pdb", "--comments", "--select", "resid 1", "--object", '{"selection": "resid 2-5"}',
                          "-o", "beside", "-q")
         self.assertIn("ALA 5", (self.folder / "beside/surface_object_1.inc").read_text())

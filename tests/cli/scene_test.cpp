@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scene files: what is saved makes the same picture again, options count before them, and faults are named.
+// Scene files: a saved scene makes the same picture again, options override them, and errors name their places.
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -72,7 +72,7 @@ TEST_F(SceneFile, WhatIsSavedMakesTheSamePictureAgain) {
   const ProgramResult again = render({"--scene", path("a.json"), "-o", path("b.png")});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(bytes("a.png"), bytes("b.png"));
-  // And saved again it is the same, but for the picture's name.
+  // A scene that is saved again is equal, except for the picture's name.
   ASSERT_EQ(
       render({"--scene", path("a.json"), "-o", path("a.png"), "--force", "--save-scene", path("a2.json")}).exit_code,
       0);
@@ -81,13 +81,13 @@ TEST_F(SceneFile, WhatIsSavedMakesTheSamePictureAgain) {
   EXPECT_EQ(scene["molecule"]["file"], "two.xyzr");
   EXPECT_EQ(scene["objects"].size(), 3u);
   EXPECT_EQ(scene["look"]["light"], "-1,2,3");
-  // Without words, and from elsewhere.
+  // The scene is rendered without further words, and from another folder.
   std::filesystem::remove(path("a.png"));
   ASSERT_EQ(run({path("a.json"), "--no-provenance", "-q"}).exit_code, 0);
   EXPECT_EQ(bytes("a.png"), bytes("b.png"));
 }
 
-// Version 0.1.0 wrote the number of an enumerator where the user had given a word.
+// Version 0.1.0 wrote the number of an enumerator instead of the user's word.
 TEST_F(SceneFile, ALinkInItsFolderKeepsItsName) {
   const TemporaryFolder elsewhere;
   std::filesystem::create_symlink(elsewhere.file("far.xyzr", kFarAtoms), path("near.xyzr"));
@@ -98,7 +98,7 @@ TEST_F(SceneFile, ALinkInItsFolderKeepsItsName) {
   EXPECT_EQ(again.exit_code, 0) << again.err;
 }
 
-// Of a link to a folder ".." is the folder around its target, where another file may have the same name.
+// In a link to a folder, ".." is the folder around its target, where another file may have the same name.
 TEST_F(SceneFile, APathThroughALinkIsThatOfTheFileThatWasRead) {
   const TemporaryFolder elsewhere;
   const std::string far = elsewhere.file("two.xyzr", "0 0 0 3\n");
@@ -144,7 +144,7 @@ TEST_F(SceneFile, OptionsCountBeforeIt) {
   ASSERT_EQ(render({"--scene", path("t.json"), "--size", "32x24", "-o", path("small.png")}).exit_code, 0);
   ASSERT_EQ(render({molecule_, "--size", "32x24", "--samples", "1", "-o", path("same.png")}).exit_code, 0);
   EXPECT_EQ(bytes("small.png"), bytes("same.png"));
-  // Another molecule with the same scene.
+  // Another molecule is drawn with the same scene.
   const std::string one = folder_.file("one.xyzr", "0 0 0 1.5\n");
   ASSERT_EQ(render({one, "--scene", path("t.json"), "-o", path("one.png")}).exit_code, 0);
   ASSERT_EQ(render({one, "--size", "64x48", "--samples", "1", "-o", path("one2.png")}).exit_code, 0);
@@ -183,7 +183,7 @@ TEST_F(SceneFile, AFurtherSurfaceStandsWhereTheWholeHadIt) {
       render(with({"--select", "index 0", "--object", R"({"selection":"index 1"})", "-o", path("parted.png")}));
   ASSERT_EQ(parted.exit_code, 0) << parted.err;
   EXPECT_EQ(bytes("both.png"), bytes("parted.png"));
-  // Each of these is seen.
+  // Each of these objects is visible.
   for (const char* own : {R"({"selection":"index 1","color":"blue"})", R"({"selection":"index 1","opacity":0.5})",
                           R"({"selection":"index 1","specular":1,"shininess":5})",
                           R"({"selection":"index 1","kind":"sas"})", R"({"selection":"index 1","clip":"y<0"})",
@@ -193,14 +193,14 @@ TEST_F(SceneFile, AFurtherSurfaceStandsWhereTheWholeHadIt) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(bytes("both.png"), bytes("own.png")) << own;
   }
-  // Nothing but it.
+  // Only the object is drawn.
   ASSERT_EQ(render(with({"--hide-surface", "--object", R"({"selection":"index 1"})", "-o", path("one.png")})).exit_code,
             0);
   ASSERT_EQ(render(with({"--select", "index 1", "-o", path("alone.png")})).exit_code, 0);
   EXPECT_EQ(bytes("one.png"), bytes("alone.png"));
 }
 
-// A pocket without its ligand's surface: what lies near it is asked for by an atom that the surface is not made of.
+// A pocket is shown without its ligand's surface: an atom that is not on the surface selects the atoms near it.
 TEST_F(SceneFile, WhatIsShownMayBeNearWhatStandsBeside) {
   const std::string three = folder_.file("three.xyzr", "0 0 0 1.7\n3 0 0 1.7\n9 0 0 1.7\n");
   const auto picture = [&](const char* name, const std::vector<std::string>& own) {
@@ -216,7 +216,7 @@ TEST_F(SceneFile, WhatIsShownMayBeNearWhatStandsBeside) {
             picture("b.png", {"--spheres", "index 2", "--show", "index 1"}));
 }
 
-// Numbers have the colours of the molecule's scale, which the legend tells, on whatever else is drawn.
+// Numbers have the colours of the molecule's scale, which the legend shows, on all other objects.
 TEST_F(SceneFile, ObjectsShareTheScaleOfTheMolecule) {
   const std::string numbered =
       folder_.file("numbered.pdb",
@@ -248,9 +248,9 @@ TEST_F(SceneFile, ObjectsShareTheScaleOfTheMolecule) {
   EXPECT_NE(
       picture("narrow.png", {"--color", "bfactor", "--object", R"({"selection":"chain B"})"}),
       picture("wide.png", {"--color", "bfactor", "--color-range", "10:90", "--object", R"({"selection":"chain B"})"}));
-  // What is measured of the surface's atoms alone is missing of others.
+  // Numbers that are measured for the surface's atoms alone are missing for others.
   picture("buried.png", {"--color", "buried", "--by", "residue", "--spheres", "chain B"});
-  // A colour a number: others would get colours that the legend has not.
+  // With one colour per number, other atoms would get colours that the legend lacks.
   const ProgramResult classes = render({numbered, "--select", "chain A", "--color", "bfactor", "--map", "categorical",
                                         "--spheres", "chain B", "-o", path("classes.png")});
   EXPECT_EQ(classes.exit_code, 2) << classes.err;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selections, radii, assemblies and the pages of the manual, as users type them.
+// Selections, radii, assemblies and pages of the manual, as users type them.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -116,7 +116,7 @@ TEST(Assembly, IsListedBuiltAndInstanced) {
   EXPECT_EQ(says({"surface", kReceptor, "--instances", "exact"}).exit_code, 2) << "needs --assembly";
 }
 
-/// Four atoms in a row and a half turn about z that carries them `distance` Å away along x.
+/// Returns four atoms in a row and a half turn about z that moves them by `distance` Å along x.
 std::string two_copies(double distance) {
   std::string text = "REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n";
   const double rows[2][3] = {{1, 1, 0}, {-1, -1, distance}};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selections that ask where atoms are mean in each frame of a run what they mean there; --select-once keeps the
-// first's.
+// Selections by places of atoms are evaluated in each frame of a run; --select-once keeps those of the first frame.
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,8 +16,8 @@ namespace {
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
-/// Frames of an alanine and of three waters in chains of their own, of which frame n has water n beside the alanine;
-/// the last frame has none there.
+/// Returns frames of an alanine and of three waters in separate chains; in frame n, water n is near the alanine, and in
+/// the last frame none is.
 std::string waters_that_come_and_go() {
   std::string text;
   for (int frame = 0; frame < 4; ++frame) {
@@ -88,12 +87,12 @@ TEST_F(SelectionsInFrames, AtomsAreThoseOfEachFrame) {
     EXPECT_EQ(run[n]["atoms"]["used"], n < 3 ? 6 : 5) << n;
     EXPECT_EQ(run[n]["area"], model["area"]) << n;
     EXPECT_EQ(run[n]["volume"], model["volume"]) << n;
-    // A share of the run is the run.
+    // A share of the run has the results of the run.
     const Json share = surface({"--select", kShell, "--frames", "all", "--only", std::to_string(n)}).at(0);
     EXPECT_EQ(share["area"], run[n]["area"]) << n;
   }
   const std::vector<Json> coordinates = surface({"--select", "x < 2", "--keep-water", "--frames", "all"});
-  EXPECT_EQ(coordinates[0]["atoms"]["used"], 5);  // all but an oxygen, and a water
+  EXPECT_EQ(coordinates[0]["atoms"]["used"], 5);  // all atoms but an oxygen, and a water
   EXPECT_EQ(coordinates[3]["atoms"]["used"], 4);
 }
 
@@ -132,11 +131,11 @@ TEST_F(SelectionsInFrames, PicturesShowEachFrameAsItIs) {
     }
     EXPECT_NE(read_bytes(folder_.path() / "run_0.png"), read_bytes(folder_.path() / "run_2.png")) << words[1];
   }
-  // Nothing to draw in one frame is not a fault of the run.
+  // A frame with nothing to draw is not an error of the run.
   picture("last_#.png", {"--spheres", "water and within 4 of protein", "--frames", "all"});
 }
 
-// A chain and a number have one colour in all frames, whatever else is there.
+// A chain and a number have one colour in all frames, whatever other atoms there are.
 TEST_F(SelectionsInFrames, ColorsAreThoseOfTheRun) {
   for (const char* color : {"chain", "bfactor"}) {
     const Words words{"--select", kShell, "--color", color, "--frames", "0-2", "--force"};
@@ -145,7 +144,7 @@ TEST_F(SelectionsInFrames, ColorsAreThoseOfTheRun) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const Json key = Json::parse(read_bytes(folder_.path() / "run" / "surface_sequence.json"))["colors"];
     if (color == std::string("chain")) {
-      EXPECT_EQ(key["classes"].size(), 4u) << key;  // P, A, B, C
+      EXPECT_EQ(key["classes"].size(), 4u) << key;  // the chains P, A, B, C
     } else {
       EXPECT_EQ(key["range"], Json::parse("[10.0, 30.0]")) << key;
     }

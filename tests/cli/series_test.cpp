@@ -21,7 +21,7 @@ namespace {
 using Words = std::vector<std::string>;
 using Rows = std::vector<std::map<std::string, std::string>>;
 
-/// Cells in quotes may have spaces, but no commas.
+/// Returns the cells of rows; cells in quotes may have spaces, but no commas.
 Rows rows_of(const std::string& text) {
   std::istringstream lines(text);
   std::string line, cell;
@@ -48,7 +48,7 @@ std::string pdb_line(int serial, const char* name, const char* residue, char cha
                      name, residue, chain, number, x, y, z, element);
 }
 
-/// Carbon atoms on a sphere around `x`, so close together that no probe gets through.
+/// Returns carbon atoms on a sphere around `x`, so close together that no probe gets through.
 std::string cage(int& serial, char chain, double x, double radius) {
   std::string text;
   const int count = 48;
@@ -60,7 +60,7 @@ std::string cage(int& serial, char chain, double x, double radius) {
   return text;
 }
 
-/// Two cages in chains A and B, far apart, the first in the middle of the frames too narrow for a probe; and water.
+/// Returns two distant cages in chains A and B, the first too narrow for a probe in the middle frames; and water.
 std::string cages(bool with_water) {
   std::string text;
   for (int frame = 0; frame < 5; ++frame) {
@@ -129,7 +129,7 @@ TEST_F(Series, ARowAFrameHasTheNumbersOfItsModel) {
   }
 }
 
-// Through every door a cavity has one volume, which is positive.
+// The volume of a cavity is the same, and positive, in every output.
 TEST_F(Series, CavitiesHaveOneSignEverywhere) {
   const Words frame{dry_, "--frames", "0"};
   auto series = table(frame, "--csv-series").at(0);
@@ -139,7 +139,7 @@ TEST_F(Series, CavitiesHaveOneSignEverywhere) {
   for (const double volume : volumes) EXPECT_GT(volume, 1.0);
   const double sum = volumes[0] + volumes[1], solid = std::stod(series["volume"]);
   EXPECT_NEAR(std::stod(series["cavity_volume"]), sum, 1e-5);
-  for (const Words& words : {Words{dry_}, frame}) {  // an object, and a line of a run
+  for (const Words& words : {Words{dry_}, frame}) {  // a JSON object, and a JSON line of a run
     const nlohmann::json surface = one(words);
     EXPECT_NEAR(surface["cavity_volume"], sum, 1e-5);
     EXPECT_EQ(surface["cavities"], 2);
@@ -157,7 +157,7 @@ TEST_F(Series, CavitiesHaveOneSignEverywhere) {
   for (const double volume : volumes)
     EXPECT_NE(printed.out.find(fmt::format(" {:.3f} ", volume)), std::string::npos) << printed.out;
   EXPECT_EQ(printed.out.find(" -"), std::string::npos) << printed.out;
-  // Pockets find these two, with all their volume, and a third void between the cages.
+  // The pockets are these two, with their whole volume, and a third void between the cages.
   const ProgramResult pockets = run_program(
       meniscus_program(),
       {"pockets", dry_, "-q", "--device", "cpu", "--ligand", "none", "--trim", "0", "--min-volume", "0", "--csv", "-"});
@@ -172,7 +172,7 @@ TEST_F(Series, AtomsAndResiduesOfEachFrameAddUp) {
   const ProgramResult result = meniscus({dry_, "--frames", "0-2", "--csv-series", series, "--csv", atoms,
                                          "--csv-residues", residues, "--select", "chain A", "--context", "chain B"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("frame"), std::string::npos);  // the table is printed as ever
+  EXPECT_NE(result.out.find("frame"), std::string::npos);  // the table is printed as usual
   const Rows frames = rows_of(read_bytes(series)), of_atoms = rows_of(read_bytes(atoms)),
              of_residues = rows_of(read_bytes(residues));
   ASSERT_EQ(frames.size(), 3u);
@@ -190,7 +190,7 @@ TEST_F(Series, AtomsAndResiduesOfEachFrameAddUp) {
   auto second = frames[1];
   EXPECT_NEAR(std::stod(second["ses_area_buried"]), model["ses_area_buried"], 1e-6);
   EXPECT_NE(std::stod(second["sas_area_buried"]), 0.0);
-  // As JSON lines, too.
+  // JSON lines have the same.
   const ProgramResult lines =
       meniscus({dry_, "--frames", "1", "--json", "--select", "chain A", "--context", "chain B"});
   ASSERT_EQ(lines.exit_code, 0) << lines.err;
@@ -206,7 +206,7 @@ TEST_F(Series, CavitiesKeepTheirNumbersUntilTheyClose) {
   }
   EXPECT_EQ(told,
             "0:1 born; 0:2 born; 1:1 kept; 1:2 kept; 2:1 kept; 2:2 closed; 3:1 kept; 3:3 born; 4:1 kept; 4:3 kept; ");
-  auto first = rows[0];  // the larger one
+  auto first = rows[0];  // the larger cavity
   EXPECT_NEAR(std::stod(first["x"]), 14.0, 0.2);
   EXPECT_EQ(first["residues"].find("\"B:CAG:1 "), 0u) << first["residues"];
   EXPECT_EQ(std::count(first["residues"].begin(), first["residues"].end(), 'B'), 6);
@@ -216,7 +216,7 @@ TEST_F(Series, CavitiesKeepTheirNumbersUntilTheyClose) {
   expect_error({dry_, "--csv-cavities", "-"}, 2, "run of frames");
 }
 
-/// Three atoms a frame, farther apart from frame to frame, at times of their own.
+/// Returns three atoms per frame, farther apart from frame to frame, with their own times.
 std::string timed_gro(int frames) {
   std::string text;
   for (int n = 0; n < frames; ++n) {
@@ -229,7 +229,7 @@ std::string timed_gro(int frames) {
   return text;
 }
 
-// The numbers of a frame beside its own number and time, however many are made at once.
+// Each row has the numbers of its frame with its own number and time, however many frames are made at once.
 TEST_F(Series, EachRowHasItsOwnTimeAndNumbers) {
   const std::string file = folder_.file("timed.gro", timed_gro(9));
   for (const char* jobs : {"1", "2", "3"}) {

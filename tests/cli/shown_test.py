@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a picture shows, and what is refused before work begins."""
+"""The visible parts of a picture, and errors before work begins."""
 
 import json
 import math
@@ -22,7 +22,7 @@ def pdb(atoms):
 
 
 def slab(z=0.0, chain="A", rows=4):
-    """Carbon atoms on a grid across the z axis."""
+    """Returns carbon atoms on a grid across the z axis."""
     return [("CA", "ALA", chain, row * rows + column + 1, (3.0 * column, 3.0 * row, z))
             for row in range(rows) for column in range(rows)]
 
@@ -33,11 +33,11 @@ class Workplace(molecule_case.MoleculeCase):
         self.write("slab.pdb", pdb(slab()))
 
     def made(self, *words):
-        """Returns what a program that must succeed wrote to the standard error stream."""
+        """Returns the standard error stream of a program that must succeed."""
         return super().made(*words).stderr
 
     def refused(self, code, said, *words):
-        """And leaves everything as it is."""
+        """Runs a program that must fail, and leave all files unchanged."""
         before = {path: path.stat().st_mtime_ns for path in self.folder.rglob("*") if path.is_file()}
         done = self.run_program(*words)
         self.assertEqual((done.returncode, said in done.stderr), (code, True), f"{said}: {done.stderr}")
@@ -46,7 +46,7 @@ class Workplace(molecule_case.MoleculeCase):
         return done.stderr
 
     def picture(self, name):
-        """The names of its channels, and their values."""
+        """Returns the names of the picture's channels, and their values."""
         file = OpenImageIO.ImageInput.open(str(self.folder / name))
         values = file.read_image(OpenImageIO.FLOAT)
         names = list(file.spec().channelnames)
@@ -62,7 +62,7 @@ class Workplace(molecule_case.MoleculeCase):
 
 
 class BeforeWork(Workplace):
-    """What options and sizes alone decide is said before the first output, and before anything long."""
+    """Errors that options and sizes alone determine are reported before the first output, and before anything long."""
 
     def setUp(self):
         super().setUp()
@@ -71,7 +71,7 @@ class BeforeWork(Workplace):
         self.still = self.scene("still.json", image={"size": "64x48", "samples": 1})
 
     def test_a_later_scene_of_a_film(self):
-        """Each is at fault in another way, and the scene before it is in order."""
+        """Each scene has another fault, and the scene before it is valid."""
         wrong = {"no room for all labels": {"annotations": {"labels": ["resid 1=" + 60 * "w", "resid 2=" + 60 * "v"]}},
                  "--title": {"annotations": {"title": 200 * "w"}}, "--scale-bar": {"annotations": {"scale_bar": 1e5}},
                  "nothing to explain": {"objects": [{"color": "red"}], "legend": {"shown": True}},
@@ -121,7 +121,7 @@ class BeforeWork(Workplace):
                 self.assertNotIn("exist", self.refused(3, "no.p", *words).replace("there is no such file", ""))
 
     def test_trajectories_need_a_topology(self):
-        # The head of a CHARMM DCD file.
+        # This is the head of a CHARMM DCD file.
         head = struct.pack("<i4s20i", 84, b"CORD", 1, 0, 1, *17 * [0]) + struct.pack("<i", 84)
         (self.folder / "a.dcd").write_bytes(head + struct.pack("<ii80si", 84, 1, b" " * 80, 84) + struct.pack("<iii", 4, 1, 4))
         for output in ("b.mp4", "b.png"):
@@ -174,7 +174,7 @@ class BeforeWork(Workplace):
 
 class Scenes(Workplace):
     def test_a_picture_finds_its_molecule(self):
-        """Where it lies, then where the command runs."""
+        """The molecule is searched in the picture's folder, then in the working folder."""
         (self.folder / "out").mkdir()
         self.made("render", "slab.pdb", "-o", "out/a.png", *SMALL)
         for n, words in enumerate((["film", "out/a.png", "out/a.png", "--hold", "0.04", "--transition", "0", "-o", "f_#.png"],
@@ -198,7 +198,7 @@ class Scenes(Workplace):
 
 class Camera(Workplace):
     def rim(self, name):
-        """The largest opacity along the border of the picture, and of all of it."""
+        """Returns the largest opacity along the border of the picture, and of the whole picture."""
         alpha = self.pixels(name)[:, :, 3]
         return max(alpha[0].max(), alpha[-1].max(), alpha[:, 0].max(), alpha[:, -1].max()), alpha.max()
 
@@ -236,7 +236,7 @@ class Camera(Workplace):
 
 
 class Cuts(Workplace):
-    """Two atoms along the line of sight, drawn as spheres, sticks and balls beside a slab."""
+    """Two atoms along the line of sight are drawn as spheres, sticks and balls next to a slab."""
 
     LOOK = ["--preset", "flat", "--view", "z", "--projection", "orthographic", "--background", "white", *SMALL]
 
@@ -259,7 +259,7 @@ class Cuts(Workplace):
             self.assertFalse((self.pixels("whole.png") == self.pixels("bare.png")).all(), kind)
 
     def test_where_they_are_cut_they_are_solid(self):
-        """A plane through two spheres, one within the reach of the other: the section has the colour that is asked for."""
+        """A plane cuts two overlapping spheres: the section has the requested colour."""
         self.made("render", "pair.pdb", *SMALL, "--hide-surface", "--object", '{"representation": "spheres", "selection": "resname LIG", "color": "red"}',
                   "--clip", "z<7.6", "--clip-all", "--camera", json.dumps({"position": [4.5, 4.5, 40], "target": [4.5, 4.5, 0],
                   "up": [0, 1, 0], "projection": "orthographic", "height": 1.6}).replace(" ", ""), "-o", "caps.exr", "--aovs")
@@ -274,7 +274,7 @@ class Cuts(Workplace):
 
 
 class Seen(Workplace):
-    """A wall of chain A with chain B behind it and chain C in the middle of a block."""
+    """A wall of chain A has chain B behind it, and chain C is in the middle of a block."""
 
     def setUp(self):
         super().setUp()
@@ -300,12 +300,12 @@ class Seen(Workplace):
     def test_what_is_seen_and_what_never_is(self):
         self.assertNotIn("no pixel", self.made(*self.base, "--color", "chain A=red", "--label", "chain A=here", "-o", "a.png"))
         self.assertIn("no side was found", self.made(*self.base, "--color", "chain C=red", "-o", "b.png"))
-        # A rule that others overrule has no atoms left, and what is seen through is not spoken of.
+        # A rule that others overrule has no atoms left, and translucent parts are not mentioned.
         self.assertNotIn("no pixel", self.made(*self.base, "--color", "chain B=red", "--color", "all=blue", "-o", "c.png"))
         self.assertNotIn("no pixel", self.made(*self.base, "--color", "chain C=red", "--opacity", "0.4", "-o", "d.png"))
 
     def ring(self, *words):
-        """How much darker than its surroundings the middle of the mark is."""
+        """Returns how much darker the middle of the mark is than its surroundings."""
         said = self.made(*self.base, "--label", *words, "--letter-size", "16", "--color", "white", "--preset", "flat",
                          "--background", "white", "--silhouettes", "0", "-o", "ring.png", "--force")
         picture = self.pixels("ring.png")[:, :, :3].mean(axis=2)

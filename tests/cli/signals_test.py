@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Commands that a signal ends at any moment leave nothing unfinished behind, neither their own files nor an encoder's."""
+"""Commands that a signal ends at any moment leave no unfinished file, neither their own nor an encoder's."""
 
 import os
 import random
@@ -24,7 +24,7 @@ def model(shift):
 
 @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
 class Signals(unittest.TestCase):
-    TRIES = 10  # of each command
+    TRIES = 10  # tries per command
 
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp())
@@ -37,7 +37,7 @@ class Signals(unittest.TestCase):
                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def check(self, words, ending):
-        """Signals at random moments of the time that the command takes."""
+        """Sends signals at random moments of the time that the command takes."""
         begin = time.monotonic()
         self.assertEqual(self.start(words, "whole" + ending).wait(), 0, words)
         whole = time.monotonic() - begin
@@ -49,15 +49,15 @@ class Signals(unittest.TestCase):
             sent = self.random.choice([signal.SIGTERM, signal.SIGINT])
             process.send_signal(sent)
             code = process.wait(20)
-            self.assertIn(code, (0, 128 + sent, -sent), words)  # the last: before the program listens
-            time.sleep(0.2)  # an encoder that was left alone would write its file now
+            self.assertIn(code, (0, 128 + sent, -sent), words)  # the last one: before the program listens
+            time.sleep(0.2)  # an encoder that still runs would write its file now
             if output.exists():
                 self.check_whole(output, self.folder / f"whole{ending}")
                 before.add(output.name)
             self.assertEqual({path.name for path in self.folder.iterdir()}, before, (words, code))
 
     def check_whole(self, made, whole):
-        """The signal came behind the last rename, or too late."""
+        """The signal came after the last rename, or too late."""
         names = [sorted(str(path.relative_to(place)) for path in place.rglob("*")) for place in (made, whole)]
         self.assertEqual(*names)
         if whole.is_file():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of many files: rows are those of each file alone, faults are rows, and a stopped call is gone on with: PROGRAM FREESASA."""
+"""Tables of many files equal those of each file, faults are rows, and stopped calls continue: PROGRAM FREESASA."""
 
 import csv
 import json
@@ -33,7 +33,7 @@ class SummaryTest(unittest.TestCase):
             return list(csv.DictReader(file))
 
     def molecules(self, count):
-        """Balls of no two numbers alike."""
+        """Makes molecules with different numbers of balls."""
         random.seed(7)
         names = []
         for n in range(count):
@@ -87,7 +87,7 @@ class SummaryTest(unittest.TestCase):
             process.send_signal(signal.SIGKILL)
             self.assertEqual(process.wait(), -signal.SIGKILL)
             self.assertFalse((self.folder / "all.csv").exists())
-        # What a kill in the middle of a row leaves.
+        # This is the table after a kill in the middle of a row.
         with open(part, "a", encoding="ascii") as file:
             file.write("m199.xyzr,15")
         with open(self.folder / "atoms.csv.part", "a", encoding="ascii") as file:
@@ -95,7 +95,7 @@ class SummaryTest(unittest.TestCase):
         self.assertIn("--resume", self.run_program(*words, code=2).stderr)
         for more in (["--probe", "1.5"], ["--csv-residues", "late.csv"]):
             self.assertIn("other options", self.run_program(*words, "--resume", *more, code=2).stderr)
-        # A file that has changed since.
+        # This file has changed since.
         first = next(row["file"] for row in csv.DictReader((self.folder / "all.csv.part").read_text().splitlines()[1:]) if row["closed"] == "yes")
         old = (self.folder / first).read_text()
         (self.folder / first).write_text("0 0 0 1.7\n")
@@ -115,7 +115,7 @@ class SummaryTest(unittest.TestCase):
         for made, whole in (("all.csv", "whole.csv"), ("atoms.csv", "whole_atoms.csv")):
             self.assertEqual(sorted((self.folder / made).read_text().splitlines()), sorted((self.folder / whole).read_text().splitlines()))
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith(".part")), [])
-        self.assertIn("all.csv", self.run_program(*words, code=6).stderr)  # it is there
+        self.assertIn("all.csv", self.run_program(*words, code=6).stderr)  # the file exists
         self.run_program(*words[:3], *words[200:], "--force")
         self.assertEqual([row["file"] for row in self.rows("all.csv")], names[:3])
 

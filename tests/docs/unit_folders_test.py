@@ -9,7 +9,7 @@ UNIT = ROOT / "tests" / "unit"
 
 
 def without_counterpart(unit, core):
-    """Folders of `unit` that `core` lacks, and tests that lie in none."""
+    """Returns folders of `unit` that `core` lacks, and tests outside of folders."""
     folders = [path.relative_to(unit) for path in unit.rglob("*") if path.is_dir()]
     lost = [str(folder) for folder in folders if not (core / folder).is_dir()]
     return sorted(lost + [path.name for path in unit.glob("*.cpp")])

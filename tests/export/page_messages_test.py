@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a page in a frame tells the page around it, and takes from it, in Chromium: arguments PROGRAM CHROMIUM MOLECULE."""
+"""Messages between a page in a frame and the page around it, in Chromium: arguments PROGRAM CHROMIUM MOLECULE."""
 
 import asyncio
 import json
@@ -39,7 +39,7 @@ class MessagesTest(unittest.IsolatedAsyncioTestCase):
         await self.page.until("typeof frame !== 'undefined'")
 
     async def asked(self):
-        """The camera of a page that has been asked for it."""
+        """Requests the page's camera until it answers, and returns the camera."""
         for _ in range(600):
             await self.page.evaluate("say({ hello: true })")
             await asyncio.sleep(0.2)
@@ -53,11 +53,11 @@ class MessagesTest(unittest.IsolatedAsyncioTestCase):
 
     async def test_it_says_what_it_is_asked_for(self):
         await asyncio.sleep(4)
-        self.assertEqual(await self.page.evaluate("heard.length"), 0)  # nobody asked
+        self.assertEqual(await self.page.evaluate("heard.length"), 0)  # The page sends nothing without a request.
         camera = await self.asked()
         self.assertGreater(await self.page.evaluate("last('atoms')"), 40)
         self.assertEqual(sorted(camera), ["height", "position", "projection", "target", "up", "vertical_fov"])
-        # A camera that is asked for is the camera, in the molecule's coordinates.
+        # The page takes a camera that it gets, in the molecule's coordinates.
         wanted = {**camera, "position": [5 + x for x in camera["position"]], "target": [5 + x for x in camera["target"]]}
         now = await self.told(wanted)
         for name in ("position", "target", "up"):

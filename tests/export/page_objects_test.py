@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Objects of their own beside a surface, in a page and by `render`: arguments PROGRAM CHROMIUM FREESASA_DATA."""
+"""Objects next to a surface, in a page and by `render`: arguments PROGRAM CHROMIUM FREESASA_DATA."""
 
 import json
 import os
@@ -17,14 +17,14 @@ class PageObjectsTest(PageCase):
     async def test_objects_are_those_of_render(self):
         part = self.part_of(UBIQUITIN, 1, 24)
         async with self.browser() as page:
-            # Beside an opaque surface, beside one that is cut, and as what is seen through itself.
+            # Objects stand next to an opaque surface, next to a cut one, and are transparent themselves.
             await self.compare(page, part, "--show", "resid 1-12", "--color", "residue", *self.object("resid 13-24", color="orange"),
                                *self.object("resid 1-24", representation="sticks", color="element"))
             await self.compare(page, part, "--color", "kind", "--clip", "depth>0.4", *self.object("resid 5-9", kind="vdw"),
                                *self.object("resid 20-24", representation="balls", color="teal"))
             await self.compare(page, part, "--surface", "vdw", "--color", "residue", *self.object("all", color="grey", opacity=0.4))
             await self.shoot(page, "page_objects.png")
-            # Other colours are for what has none of its own.
+            # Another scheme colours only objects without a colour of their own.
             await self.load(page, self.export(part, "--size", "%dx%d" % SIZE, "--color", "residue", *self.object("resid 3-9", kind="sas"),
                                               *self.object("resid 10-14", kind="sas", color="orange")))
             await page.evaluate("meniscus.set_scheme(meniscus.figure.schemes.findIndex(({ name }) => name === 'kind'))")

@@ -18,9 +18,9 @@ from firefox import Firefox
 PYMOL = pathlib.Path("/usr/share/pymol/data")
 SIZES = {"desktop": (1280, 800), "phone": (390, 844)}
 SOFTWARE_GL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-SAMPLES = 3  # of 16, for software GL is slow
+SAMPLES = 3  # fewer than the usual 16, for software GL is slow
 FILM = '{"representation": "surface", "selection": "polymer", "color": "#b0b8c0", "opacity": 0.12, "film_opacity": true}'
-# From a scene of the gallery, or with options.
+# Each page comes from a scene of the gallery, or from options.
 SCENES = {
     "chains": (PYMOL / "demo/1tii.pdb", "--scene", "chains"),
     "cut": (PYMOL / "tut/1hpv.pdb", "--scene", "cut"),
@@ -34,7 +34,7 @@ SCENES = {
 
 
 def run_of(molecule, path, last=30, frames=4):
-    """Models of the first residues, more and more apart."""
+    """Writes models of the first residues, which move apart."""
     rows = [row for row in molecule.read_text().splitlines() if row.startswith("ATOM") and int(row[22:26]) <= last]
     models = []
     for frame in range(frames):

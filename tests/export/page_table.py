@@ -32,7 +32,7 @@ TWICE = 2 ** 0.5
 
 
 def cage(count=120, radius=8.0, ball=1.9):
-    """Balls all around a cavity."""
+    """Returns balls all around a cavity."""
     balls = []
     for n in range(count):
         y, turn = 1 - 2 * (n + 0.5) / count, n * 2.399963
@@ -68,7 +68,7 @@ SCENES = [
     (f"{FREESASA}/1d3z.pdb", "--color", "index", "--view", "back"),
 ]
 
-# A draft as it is drawn while the view moves, and one of the samples at rest, the second time; the device has drawn when a pixel is read.
+# Times a draft of a moving view, or a sample of one at rest, in a second run; reading a pixel waits for the device.
 SPEED = """(() => {
   const viewer = window.meniscus, caster = viewer.caster, gl = caster.gl, [width, height] = [%d, %d], counts = { calls: 0, bytes: 0 };
   for (const name in gl) {
@@ -106,19 +106,19 @@ SPEED = """(() => {
   return { ...found, fragments, primitives: caster.primitive_count };
 })()"""
 
-# Films of a turn, and of which atoms.
+# Molecules and options of the films of a turn.
 FILMS = [
     (TOXIN, "--color", "chain"),
     (UBIQUITIN, "--color", "residue", "--opacity", "0.5", "--opacity", "resid 1-20=1", "--clip", "1,0.2,0<36", "--tube", "polymer"),
 ]
 STEPS = 30
-STEP = f"meniscus.camera = orbited(meniscus.camera, {2 / STEPS}, 0)"  # of a whole turn
+STEP = f"meniscus.camera = orbited(meniscus.camera, {2 / STEPS}, 0)"  # a part of a whole turn
 CAMERA = """(() => {
   const { position, target, up, orthographic, fov, height } = meniscus.camera, { origin } = meniscus.figure;
   const size = orthographic ? { height } : { vertical_fov: fov };
   return { position: plus(position, origin), target: plus(target, origin), up, projection: orthographic ? "orthographic" : "perspective", ...size };
 })()"""
-# Where a draft has met something: the one of moving views, half as wide as the picture.
+# Pixels where the draft of moving views, half as wide as the picture, has met something.
 DRAFT_SIZE = tuple(side // 2 for side in figure_page.SIZE)
 DRAFT = """(() => {
   const viewer = meniscus, caster = viewer.caster, [width, height] = [%d, %d];
@@ -174,7 +174,7 @@ async def pixels(pages):
 
 
 async def turning(pages):
-    """A hole: a pixel of the background amid those, of the picture by render, that have a surface."""
+    """Compares the frames of turns. A hole is a background pixel amid pixels of a surface in the picture by render."""
     width, height = figure_page.SIZE
     print("| molecule | options | frames | most that differ in one | holes | holes of drafts |\n|---|---|--:|--:|--:|--:|")
     bad = 0
@@ -205,7 +205,7 @@ async def turning(pages):
 
 
 def inside(solid):
-    """Pixels whose neighbours have a surface, too: outlines may be off by half a pixel."""
+    """Returns pixels whose neighbours have a surface, too: outlines may be off by half a pixel."""
     around = numpy.pad(solid, 1)
     return numpy.all([around[1 + y:around.shape[0] - 1 + y, 1 + x:around.shape[1] - 1 + x] for y in (-1, 0, 1) for x in (-1, 0, 1)], axis=0)
 

@@ -19,7 +19,7 @@ from figure_page import DEPTH_CUE, PROGRAM, PROTEASE, SIZE, TOXIN, UBIQUITIN, Pa
 
 class PageTest(PageCase):
     def run_of(self, molecule, last, frames):
-        """A file of models: residues up to `last`, more and more bent."""
+        """Writes a file of models and returns its path: the residues up to `last` are bent more in each."""
         with open(molecule) as file:
             rows = [row for row in file if row.startswith("ATOM") and int(row[22:26]) <= last]
         with open(self.path("run.pdb"), "w") as file:
@@ -34,7 +34,7 @@ class PageTest(PageCase):
         return file.name
 
     def rings(self):
-        """A base and a sugar, each a flat ring."""
+        """Writes a base and a sugar, each a flat ring."""
         with open(self.path("rings.pdb"), "w") as file:
             for number, residue, names in ((1, "LIG", "N1 C2 N3 C4 C5 C6"), (2, "NAG", "C1 C2 C3 C4 C5 O5")):
                 for n, name in enumerate(names.split()):
@@ -61,7 +61,7 @@ class PageTest(PageCase):
             y, turn = 1 - 2 * (n + 0.5) / 120, n * 2.399963
             cage.append((8 * math.sqrt(1 - y * y) * math.cos(turn), 8 * y, 8 * math.sqrt(1 - y * y) * math.sin(turn), 1.9))
         async with self.browser() as page:
-            # A torus that meets itself, and a probe that touches four atoms at once.
+            # One torus meets itself, and one probe touches four atoms at once.
             await self.compare(page, self.balls("spindle.xyzr", [(0, 0, 0, 1.5), (5.4, 0, 0, 1.5), (8, 1, 0, 1.2)]), "--color", "kind")
             await self.compare(page, self.balls("square.xyzr", [(0, 0, 0, 1.5), (4, 0, 0, 1.5), (4, 4, 0, 1.5), (0, 4, 0, 1.5)]), "--color", "kind")
             await self.compare(page, self.balls("cage.xyzr", cage), "--camera", inside)
@@ -76,7 +76,7 @@ class PageTest(PageCase):
         part, grid = self.part_of(UBIQUITIN, 1, 15), self.path("map.dx")
         with open(part) as file:
             places = [[float(row[30 + 8 * n:38 + 8 * n]) for n in range(3)] for row in file]
-        low, high = numpy.min(places, axis=0) - 6, numpy.max(places, axis=0) + [6, 6, 1]  # some of it is beyond the map
+        low, high = numpy.min(places, axis=0) - 6, numpy.max(places, axis=0) + [6, 6, 1]  # A part of the surface is beyond the map.
         count = ((high - low) / 1.3).astype(int)
         values = numpy.random.default_rng(1).normal(size=count)
         with open(grid, "w") as file:
@@ -88,7 +88,7 @@ class PageTest(PageCase):
         async with self.browser() as page:
             await self.compare(page, part, *by_map, "--sticks", "resid 1-3")
             await page.evaluate("meniscus.set_scheme(meniscus.figure.schemes.findIndex(({ name }) => name === 'residue'))")
-            # Colours by a scale are not faded, nor do they shine: others have their own look.
+            # Colours by a scale neither fade nor shine; other colours keep their look.
             self.check("another scheme", await self.cast(page), self.rendered(part, "--color", "residue", "--sticks", "resid 1-3"))
             await page.evaluate("meniscus.set_scheme(meniscus.figure.schemes.findIndex(({ name }) => name === 'bfactor'))")
             self.check("another scale", await self.cast(page), self.rendered(part, "--color", "bfactor", "--sticks", "resid 1-3"))
@@ -125,7 +125,7 @@ class PageTest(PageCase):
             self.check("cut, chain A alone", await self.cast(page), self.rendered(few, *look, "--show", "chain A", "--clip", clip))
             await page.evaluate("meniscus.show_chains(new Set(meniscus.figure.names.chains)), meniscus.opacity = 0.5, meniscus.set_cut(0)")
             self.check("seen through", await self.cast(page), self.rendered(few, *look, "--opacity", "0.5"))
-            # Sticks go with their chain, also where the surface is cut.
+            # Sticks move with their chain, also where the surface is cut.
             await self.load(page, self.export(few, "--size", size, "--color", "chain", "--camera", camera, "--sticks", "backbone", "--clip", clip))
             await page.evaluate("meniscus.figure.look.finish[%d] = 0" % DEPTH_CUE)
             await page.evaluate("meniscus.show_chains(new Set(['A']))")
@@ -156,7 +156,7 @@ class PageTest(PageCase):
             for key in ("position", "target"):
                 numpy.testing.assert_allclose(numpy.add(seen[key], seen["origin"]), wanted[key], atol=1e-9)
             self.assertEqual((seen["orthographic"], seen["height"]), (True, wanted["height"]))
-            # Half of a half turn.
+            # The middle of a half turn looks at a right angle to its start.
             middle = await page.evaluate("((v) => between({ ...v[0].camera }, { ...v[1].camera, orthographic: false, fov: v[0].camera.fov }, 0.5))"
                                          "(meniscus.figure.views)")
             ahead = numpy.subtract(middle["target"], middle["position"])
@@ -177,7 +177,7 @@ class PageTest(PageCase):
             self.assertFalse(os.path.exists(self.path("bad.html")))
 
     async def compare_frames(self, page, run, shown, *options, before="0"):
-        """before: what readers do first."""
+        """before: script that runs before frames are shown."""
         await self.load(page, self.export(run, "--frames", "all", "--size", "%dx%d" % SIZE, *options))
         await page.evaluate(before)
         for frame in shown:
@@ -191,7 +191,7 @@ class PageTest(PageCase):
             await self.compare_frames(page, run, (0, 3, 1, 2), "--color", "radial", "--sticks", "resid 1-3")
             self.assertEqual(await page.evaluate("meniscus.figure.sources.shown"), await page.evaluate("meniscus.figure.first.tables.shown[0]"))
             self.assertEqual(await page.evaluate("document.getElementById('frame').getAttribute('aria-valuetext')"), "3 of 4: frame 2")
-            # Atoms that differ from frame to frame, planes that are placed anew in each, and a view by its name.
+            # Atoms may differ from frame to frame; planes are placed anew in each, and a view may have a name.
             await self.compare_frames(page, run, (2, 0), "--select", "x < 36", "--color", "secondary")
             await self.compare_frames(page, run, (3,), "--clip", "depth>0.4", "--cap-color", "orange")
             self.run_program("render", run, "-o", self.path("in.png"), "--force", "-q", "--samples", "1", "--clip", "depth>0.3")
@@ -233,7 +233,7 @@ class PageTest(PageCase):
         self.assertFalse(os.path.exists(self.path("large.html")))
 
     async def png(self, page, times, tiles):
-        """sRGB of the PNG so many times as large as the window."""
+        """Returns the sRGB pixels of a PNG that is `times` as large as the window."""
         text = await page.evaluate(
             "(async () => { Object.assign(kTiles, %s); const png = await draw_png(meniscus, meniscus.pixels().map((side) => %d * side), () => {});"
             " let all = ''; for (const byte of new Uint8Array(await png.arrayBuffer())) all += String.fromCharCode(byte); return btoa(all); })()"
@@ -310,7 +310,7 @@ class PageTest(PageCase):
             self.assertEqual(page.complaints, [])
 
     async def test_distances_of_sticks(self):
-        """Between atoms of sticks, of a surface, and of both, as the file has them; meshes know of no atoms."""
+        """Distances between atoms of sticks and surfaces are the file's own; meshes know no atoms."""
         places = {}
         with open(UBIQUITIN) as file:
             for row in file:
@@ -330,7 +330,7 @@ class PageTest(PageCase):
                                                 f" return v.tell({{atom: find('{other}'), primitive: 0}}); }})()")
                     self.assertIn(f"{math.dist(places[one], places[other]):.2f} Å from {one}", words)
             self.assertTrue(await page.evaluate("[...meniscus.figure.tables.shown.keys()].some((a) => meniscus.caster.center_of(a) === null)"))
-            # What is selected is tinted, but not in the picture that is saved.
+            # The selection is tinted, but not in the picture that is saved.
             read = "[...meniscus.caster.read(0, 0, ...meniscus.caster.size, 0)].reduce((sum, word) => (sum * 31 + word) >>> 0, 7)"
             before = await page.evaluate(read)
             plain = await self.png(page, 1, None)
@@ -363,7 +363,7 @@ class PageTest(PageCase):
             self.assertIsNone(await page.evaluate("window.stolen"))
             self.assertIn("window.stolen", await page.evaluate("document.getElementById('legend').textContent"))
             self.assertIn("window.stolen", await page.evaluate("window.meniscus.atom_name(0)"))
-            # Neither may scripts that come later, nor anything from elsewhere.
+            # Later scripts and foreign content do not run, either.
             await page.evaluate("(() => { const s = document.createElement('script'); s.textContent = 'window.stolen=1';"
                                 " document.body.append(s); })()")
             self.assertIsNone(await page.evaluate("window.stolen"))
@@ -378,7 +378,7 @@ class PageTest(PageCase):
 
 
 def asked(words):
-    """The tests' names, or all other words."""
+    """Returns the names of a share's tests, or the words that are given."""
     if not words or words[0] != "--share":
         return words
     n, of = map(int, words[1].split("/"))

@@ -5,7 +5,7 @@ import numpy as np
 
 
 def write_dx(path, count=41, step=1.5, corner=(0.0, 0.0, -15.0)):
-    """OpenDX with so many points a side, Å apart from the corner on."""
+    """Writes an OpenDX map with `count` points a side, `step` Å apart, that starts at the corner."""
     x, y, z = (corner[axis] + step * np.arange(count) for axis in range(3))
     values = 4.0 * np.sin(x / 6.0)[:, None, None] * np.cos(y / 5.0)[None, :, None] + 0.05 * z[None, None, :]
     with open(path, "w", encoding="ascii") as file:

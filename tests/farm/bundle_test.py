@@ -32,7 +32,7 @@ class Bundle(FarmCase):
                 self.assertNotIn(word.encode(), text)
 
     def test_the_manifest_says_everything(self):
-        """Options that say where the command is computed are the workers' default, and no part of the command."""
+        """Options about the device and its threads are the workers' default, and no part of the command."""
         device = ["--device", "cpu", "--threads", "2", "--jobs", "3"]
         folder = self.bundle("manifest", *self.render("--stride", "2", *device))
         manifest = json.loads((folder / "bundle.json").read_text())
@@ -86,7 +86,7 @@ class Bundle(FarmCase):
         self.assertIn("camera.png: is one of the files that this command reads", result.stderr)
 
     def test_a_full_disk_is_named(self):
-        """On a file system that has no room for the input."""
+        """The file system has no room for the input."""
         room = self.folder / "room"
         room.mkdir()
         script = 'mount -t tmpfs -o size=16k none "$1" || exit 77; shift; "$@"; code=$?; ls -A "$0"; exit $code'

@@ -24,7 +24,7 @@ class Engines(FarmCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        # A farm finds the program in PATH.
+        # Farms find the program in PATH.
         (cls.folder / "bin").mkdir()
         (cls.folder / "bin" / "meniscus").symlink_to(MENISCUS)
         cls.environment = dict(os.environ, PATH=f"{cls.folder / 'bin'}:{os.environ['PATH']}", HOME=str(cls.folder))
@@ -45,7 +45,7 @@ class Engines(FarmCase):
         self.assertGreater((folder / "film.mp4").stat().st_size, 1000)
 
     def kill_a_worker(self, folder, command):
-        """Starts an engine, and kills its worker with all of its children after the first picture; the engine's code."""
+        """Starts an engine, kills its worker with all children after the first picture, and returns its exit code."""
         engine = subprocess.Popen(command, env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd="/")
         wait_until(lambda: self.made(folder), what="a picture")
         self.kill_worker_in(folder)
@@ -59,7 +59,7 @@ class Engines(FarmCase):
 
     @unittest.skipUnless(shutil.which("snakemake"), "snakemake is not installed")
     def test_snakemake(self):
-        """It starts a chunk whose worker was killed again by itself."""
+        """Snakemake itself starts the chunk of a killed worker again."""
         folder = self.engine_bundle("snakemake $x", "snakemake")
         flow = ["snakemake", "--cores", "2", "--nocolor", "-d", folder, "-s", folder / "Snakefile"]
         self.assertEqual(self.kill_a_worker(folder, flow), 0)
@@ -69,7 +69,7 @@ class Engines(FarmCase):
         folder = self.engine_bundle(f"openjd {HOSTILE}", "openjd")
         template = json.loads((folder / "template.json").read_text())
         values = {f"Param.{entry['name']}": entry["default"] for entry in template["parameterDefinitions"]}
-        values["Param.Bundle"] = str(folder / values["Param.Bundle"])  # relative defaults start from the template
+        values["Param.Bundle"] = str(folder / values["Param.Bundle"])  # Relative defaults start from the template.
         work, verify = template["steps"]
         self.assertEqual(verify["dependencies"], [{"dependsOn": work["name"]}])
         (chunk,) = work["parameterSpace"]["taskParameterDefinitions"]
@@ -117,7 +117,7 @@ class Engines(FarmCase):
         self.assertTrue(1.5 * peak < memory <= 1.5 * peak + 513, (peak, memory))
 
     def test_make_divides_the_cores_among_its_jobs(self):
-        """-j2 on a machine of 12 cores gives each task six."""
+        """Six cores go to each of two tasks on a machine of 12 cores."""
         folder = self.povray_bundle("jobs", FRAMES, options=("--chunk-frames", "2", "--engine", "make"))
         path = self.programs("shim", nproc="#!/bin/sh\necho 12\n", meniscus='#!/bin/sh\necho "$@"\n')["PATH"]
         for words, threads in (((), 12), (("-j2",), 6), (("-k", "-j", "5"), 2), (("-j", "64"), 1), (("-j",), 1),

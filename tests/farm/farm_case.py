@@ -18,7 +18,7 @@ UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 
 
 def sample_run(path, frames, bad_frame=None, atoms=300):
-    """A PDB file of models: the first atoms of ubiquitin, breathing. A bad frame has a coordinate that is none."""
+    """Writes a PDB file of models: the first atoms of ubiquitin, breathing. A bad frame has a malformed coordinate."""
     lines = pathlib.Path(UBIQUITIN).read_text().splitlines(keepends=True)
     records = [line for line in lines if line.startswith("ATOM")][:atoms]
     with open(path, "w") as out:
@@ -36,13 +36,13 @@ def sample_run(path, frames, bad_frame=None, atoms=300):
 
 
 def sums(folder, pattern):
-    """SHA-256 of the files that fit, by name; without hidden ones, which only killed workers leave."""
+    """Returns SHA-256 of matching files by name; hidden files, which only killed workers leave, are left out."""
     return {path.name: hashlib.sha256(path.read_bytes()).hexdigest()
             for path in sorted(folder.glob(pattern)) if not path.name.startswith(".")}
 
 
 def processes_in(folder):
-    """Numbers of the processes that work in this folder."""
+    """Returns the numbers of processes that work in this folder."""
     found = []
     for entry in pathlib.Path("/proc").iterdir():
         if not entry.name.isdigit():
@@ -56,7 +56,7 @@ def processes_in(folder):
 
 
 def wait_until(condition, seconds=120.0, what="condition"):
-    """The first true value of the condition; fails when it takes too long."""
+    """Returns the first true value of the condition; fails when it takes too long."""
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
         value = condition()
@@ -73,7 +73,7 @@ class FarmCase(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
 
     def meniscus(self, *arguments, code=0, **more):
-        """Runs the program and checks its exit code, unless that is None; what it said."""
+        """Runs the program and checks its exit code, unless that is None; returns the result."""
         result = subprocess.run([MENISCUS, *map(str, arguments)], capture_output=True, text=True, timeout=300, **more)
         self.assertIn(result.returncode, [code] if code is not None else range(10), f"{arguments}\n{result.stdout}\n{result.stderr}")
         return result
@@ -91,7 +91,7 @@ class FarmCase(unittest.TestCase):
                            "cpu", "--", "-A", options=options)
 
     def programs(self, name, **scripts):
-        """An environment in which these programs are found first."""
+        """Returns an environment in which these programs are found first."""
         folder = self.folder / name
         folder.mkdir()
         for program, text in scripts.items():
@@ -103,11 +103,11 @@ class FarmCase(unittest.TestCase):
         return subprocess.Popen([MENISCUS, "work", folder, "--progress", "none", *more], **how)
 
     def made(self, bundle, pattern="images/frame_*.png"):
-        """Numbers of the frames of these files, in order."""
+        """Returns the numbers of the frames of these files, in order."""
         return sorted(int(path.stem.split("_")[1]) for path in bundle.glob(pattern))
 
     def kill_worker_in(self, bundle):
-        """The parent of a renderer."""
+        """Kills the parent of a renderer."""
         renderer = wait_until(lambda: processes_in(bundle / "scene"), what="a renderer")[0]
         os.kill(int(pathlib.Path(f"/proc/{renderer}/stat").read_text().rsplit(")", 1)[1].split()[1]), signal.SIGKILL)
 
@@ -117,7 +117,7 @@ class FarmCase(unittest.TestCase):
 
 
 class WorkCase(FarmCase):
-    """With a bundle that was made in one go, to compare with."""
+    """A test with a bundle that was made in one go, as a reference."""
 
     @classmethod
     def setUpClass(cls):
@@ -132,7 +132,7 @@ class WorkCase(FarmCase):
             self.assertEqual(sums(folder / place, pattern), expected)
 
 
-SKIPPED = 77  # what ctest shows as skipped, not as passed
+SKIPPED = 77  # ctest shows this exit code as skipped.
 
 
 def main():

@@ -37,7 +37,7 @@ Bundle bundle_of(std::uint64_t frames) {
   return bundle;
 }
 
-// The examples are those of FIPS 180-4; the second file takes several readings.
+// The examples come from FIPS 180-4; reading the second file takes several steps.
 TEST(Checksum, IsSha256) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
@@ -77,7 +77,7 @@ TEST(Chunks, AreAsLongAsWanted) {
   } cases[]{{100, {}, 30, 10}, {100, {}, 1000, 100}, {100, {}, 0.001, 1},
             {1, {}, 1e9, 1},   {3000, 1, 0, 3000},   {15, 7, 0, 3}};
   for (const auto& [frames, wanted_frames, seconds, tasks] : cases) {
-    Chunking chunking;  // of five minutes
+    Chunking chunking;  // tasks of five minutes
     chunking.wanted_frames = wanted_frames;
     chunking.seconds_per_frame = seconds;
     EXPECT_EQ(chunking.wanted_count(frames), tasks);
@@ -87,7 +87,7 @@ TEST(Chunks, AreAsLongAsWanted) {
 TEST(Tasks, AreGivenMemoryByWhatWasMeasured) {
   Chunking chunking;
   EXPECT_FALSE(chunking.memory());
-  chunking.peak_memory = 100;  // 150, and 256 for the worker
+  chunking.peak_memory = 100;  // 150 MB with a reserve, and 256 MB for the worker
   EXPECT_EQ(chunking.memory(), 512u);
   chunking.peak_memory = 1024;
   EXPECT_EQ(chunking.memory(), 1792u);
@@ -135,7 +135,7 @@ TEST(Inputs, AreCheckedBySizeAndUpToAQuarterOfAGibibyteBySum) {
   EXPECT_THROW(check_inputs(bundle, folder.path(), false), InputError);
 }
 
-// A picture is there if its end is there.
+// A picture is whole when its end is there.
 TEST(MissingFrames, AreThoseWithoutAWholePicture) {
   const TemporaryFolder folder;
   const std::string end("\0\0\0\0IEND\xae\x42\x60\x82", 12);
@@ -148,7 +148,7 @@ TEST(MissingFrames, AreThoseWithoutAWholePicture) {
 
 TEST(MissingFrames, OfScenesAreThoseWhoseFilesAreNotAsTheirMarkSays) {
   const TemporaryFolder folder;
-  Bundle bundle = bundle_of(4);  // 0, 3, 6, 9
+  Bundle bundle = bundle_of(4);  // frames 0, 3, 6, 9
   bundle.command = {"export", "povray", "inputs/a.pdb"};
   std::filesystem::create_directory(folder.path() / "scene");
   folder.file("scene/a.inc", "1234");

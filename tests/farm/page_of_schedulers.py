@@ -12,14 +12,14 @@ BUNDLE = "/mnt/film"
 
 
 def files(heading):
-    """What stands between the fences below a heading."""
+    """Returns the texts between the fences below a heading."""
     section = re.split(r"^## ", PAGE.read_text(), flags=re.M)
     (found,) = [part for part in section if part.startswith(heading)]
     return re.findall(r"^```\w*\n(.*?)^```$", found, re.M | re.S)
 
 
 def settings(text, separator="="):
-    """Lines of the form name = value."""
+    """Returns a dictionary from lines of the form name = value."""
     return dict((part.strip() for part in line.split(separator, 1)) for line in text.splitlines() if line.strip() and separator in line)
 
 
@@ -29,7 +29,7 @@ def condor_file():
 
 
 def condor_tasks():
-    """The macros of a submit description: $(Process) and $(NAME) by their text, $INT(NAME) as the sum that it is."""
+    """Returns each task of a submit description: $(Process) and $(NAME) by their text, $INT(NAME) by its sum."""
     text = condor_file()
     assert f"queue {TASKS}\n" in text
     given = settings(text)
@@ -62,7 +62,7 @@ def deadline_tasks():
 
 
 def array_tasks():
-    """Each of the three names in turn."""
+    """Returns the tasks, whose numbers have the three schedulers' names in turn."""
     (script,) = files("Grid Engine")
     names = ("SGE_TASK_ID", "PBS_ARRAY_INDEX", "LSB_JOBINDEX")
     return [(script, {names[k % 3]: str(k + 1)}) for k in range(TASKS)]

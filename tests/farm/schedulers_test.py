@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Schedulers without a template: what docs/reference/schedulers.md tells makes every frame, each by one task."""
+"""Schedulers without a template: by the commands of docs/reference/schedulers.md each frame is made by one task."""
 
 import os
 import re
@@ -8,7 +8,7 @@ import subprocess
 import page_of_schedulers as page
 from farm_case import FarmCase, MENISCUS, main, sample_run, sums
 
-FRAMES = 23  # more than tasks, and no multiple of them
+FRAMES = 23  # more frames than tasks, and no multiple of them
 
 
 class Schedulers(FarmCase):
@@ -41,7 +41,7 @@ class Schedulers(FarmCase):
         self.assertEqual(headings, ["HTCondor", "AWS Batch", "Nextflow", "Deadline 10", "Grid Engine, PBS, LSF"])
 
     def test_tasks_by_their_numbers(self):
-        """Ten tasks, in an order of no use, each of which makes its own share and nothing else."""
+        """Ten tasks run in reverse order, and each makes its own share and nothing else."""
         for queue, tasks in page.TASKS_OF.items():
             with self.subTest(queue):
                 folder = self.film(queue.replace(" ", ""))
@@ -54,7 +54,7 @@ class Schedulers(FarmCase):
                 self.assert_each_frame_is_made_once(folder)
 
     def test_nextflow(self):
-        """Its command alone: the program itself runs in scripts/check/schedulers.sh."""
+        """Only Nextflow's commands run here: Nextflow itself runs in scripts/check/schedulers.sh."""
         folder = self.film("nextflow")
         (text,) = page.files("Nextflow")
         commands = re.findall(r'"""\n\s*(.*?)\n\s*"""', text)

@@ -13,7 +13,7 @@ PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "squeue")
 
 
 def why_not():
-    """What is missing for a cluster here; empty if nothing is."""
+    """Returns what a cluster here is missing, or an empty text."""
     if os.geteuid() != 0:
         return f"Slurm's daemons are started as root only; this is {getpass.getuser()}"
     if not os.path.ismount("/sys/fs/cgroup"):
@@ -137,12 +137,12 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
                               text=True, timeout=60)
 
     def job(self, number):
-        """What the controller knows of a job, or of one task of an array ("12_3")."""
+        """Returns the controller's record of a job, or of one task of an array ("12_3")."""
         text = self.run("scontrol", "show", "job", "-o", number).stdout.splitlines()
         return dict(word.split("=", 1) for word in (text[0].split() if text else []) if "=" in word)
 
     def tasks(self, array):
-        """Of each task of an array, by its number."""
+        """Returns the controller's record of each task of an array, by its number."""
         found = {}
         for line in self.run("scontrol", "show", "job", "-o", array).stdout.splitlines():
             task = dict(word.split("=", 1) for word in line.split() if "=" in word)

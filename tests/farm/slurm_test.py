@@ -26,13 +26,13 @@ class Slurm(FarmCase):
         cls.cluster = cls.enterClassContext(SlurmCluster(home))
 
     def submit(self, folder, *options, **environment):
-        """Numbers of the jobs by step."""
+        """Submits a bundle and returns the numbers of the jobs by step."""
         result = self.cluster.run(folder / "submit.sh", *options, MENISCUS=MENISCUS, **environment)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         return dict(line.split() for line in result.stdout.splitlines())
 
     def worker_of(self, folder, chunk):
-        """The process that works on this share."""
+        """Returns the process that works on this share."""
         for number in processes_in(folder):
             try:
                 words = pathlib.Path(f"/proc/{number}/cmdline").read_bytes().split(b"\0")
@@ -61,7 +61,7 @@ class Slurm(FarmCase):
         jobs = self.submit(folder, "--time=5", PATH=self.path_of_slow_requeues())
         work = jobs["work"]
 
-        # Task 1 is killed as a machine out of memory would; its script puts it back into the queue.
+        # Task 1 is killed like one on a machine out of memory; its script puts it back into the queue.
         victim = wait_until(lambda: self.made(folder) and self.worker_of(folder, 1), 60,
                             "task 1 at work")
         os.kill(victim, signal.SIGKILL)
@@ -73,7 +73,7 @@ class Slurm(FarmCase):
             log = folder / "logs" / f"work-{task}.log"
             wait_until(lambda: f"stopped (code {code})" in log.read_text(), 20, f"task {task} to be put back")
             wait_until(lambda: self.cluster.tasks(work)[task]["JobState"] == "PENDING", 20, f"task {task} to wait")
-            # A requeued task waits two minutes; not here.
+            # A requeued task would wait two minutes, which the test skips.
             wait_until(lambda: self.cluster.run("scontrol", "update", f"JobId={work}_{task}",
                                                 "StartTime=now").returncode == 0, 20, "an earlier start")
         self.assertLess(len(self.made(folder)), FRAMES)
@@ -103,7 +103,7 @@ class Slurm(FarmCase):
                          {1: ("COMPLETED", "0:0"), 2: ("COMPLETED", "0:0"), 3: ("FAILED", "3:0"),
                           4: ("COMPLETED", "0:0")})
         self.assertIn("frame 5", (folder / "logs" / "work-3.log").read_text())
-        # All other frames are there, those of the same task, too, and the film.
+        # All other frames are there, also those of the same task, and so is the film.
         self.assertEqual(self.made(folder), [0, 1, 2, 3, 4, 6, 7])
         self.assertIn("7 frames are good, 1 missing: 5", (folder / "logs" / "verify.log").read_text())
         self.assertGreater((folder / "film.mp4").stat().st_size, 1000)

@@ -38,7 +38,7 @@ class Work(WorkCase):
         self.assert_nothing_unfinished(folder)
 
     def test_a_worker_that_is_stopped_ends_its_renderer(self):
-        """Even one that would go on for a minute, and even if the worker is killed."""
+        """A renderer that would go on for a minute ends, too, even if the worker is killed."""
         folder = self.povray_bundle("stopped")
         self.meniscus("work", folder, "--step", "surface")
         endless = self.programs("endless_bin", povray="#!/bin/sh\nexec sleep 60\n")
@@ -53,7 +53,7 @@ class Work(WorkCase):
         self.assert_equals_reference(folder)
 
     def test_workers_that_do_not_know_of_each_other(self):
-        """Four on the whole run, of which one is killed, and two on the same frames: the same bytes; few are made twice."""
+        """Workers that share a run, one of them killed, or its frames make the same bytes, and few frames twice."""
         folder = self.povray_bundle("shared", 24)
         log = self.folder / "calls"
         counting = self.programs("counting", povray=f'#!/bin/sh\necho >> {log}\nexec {shutil.which("povray")} "$@"\n')
@@ -140,7 +140,7 @@ class Work(WorkCase):
         self.assertEqual(self.film_frames(folder), 8)
 
     def test_pictures_that_are_blank_or_of_another_size_are_not_good(self):
-        """The camera looks past the molecule, or the renderer is told another size."""
+        """The camera looks past the molecule, or the renderer uses another size."""
         molecule = sample_run(self.folder / "blank.pdb", 2)
         camera = json.loads((self.reference / "inputs" / "camera.json").read_text())
         camera["position"] = [value + 500.0 for value in camera["target"]]
@@ -179,7 +179,7 @@ class Work(WorkCase):
         self.assertIn("large $input.pdb: is missing, or not what was bundled", self.meniscus("work", folder, code=3).stderr)
 
     def test_a_full_disk(self):
-        """On a file system with room for some frames; with room again the same command makes the others."""
+        """The file system has room for some frames; with more room the same command makes the others."""
         folder = self.povray_bundle("full")
         script = """mount -t tmpfs -o size=1m none "$1" || exit 77
 cp -r "$2"/* "$1" && "$3" work "$1" --progress none; code=$?
@@ -206,7 +206,7 @@ cp -r "$1"/images "$1"/scene "$2" && exit $code
         self.assertIn("povray: cannot be started", missing.stderr)
 
     def test_a_killed_renderer_is_started_once_more(self):
-        """POV-Ray that is always killed at a frame: one frame less; that is killed once: none is missing."""
+        """A frame at which POV-Ray is always killed is missing; one at which it is killed once is made."""
         folder = self.povray_bundle("killed_renderer", 3)
         real, mark = shutil.which("povray"), self.folder / "mark"
         always = self.programs("always", povray=f'#!/bin/sh\ncase "$*" in *+SF0*) kill -9 $$;; esac\nexec {real} "$@"\n')
@@ -241,7 +241,7 @@ exec {real} "$@"
         self.assert_nothing_unfinished(parts)
 
     def test_scenes_for_path_tracers_are_made_and_nothing_else(self):
-        """The same bytes as by one command without a farm; a mesh that is gone is found and made again."""
+        """The bytes equal those of one command without a farm; a missing mesh is found and made again."""
         molecule = sample_run(self.folder / "scenes.pdb", 4)
         for renderer in ("mitsuba", "pbrt"):
             words = ("export", renderer, molecule, *SMALL, "--device", "cpu")

@@ -58,7 +58,7 @@ struct Settings {
 
 Settings settings;
 std::atomic<bool> active{false};
-__attribute__((tls_model("initial-exec"))) thread_local bool inside = false;  // a call of our own making
+__attribute__((tls_model("initial-exec"))) thread_local bool inside = false;  // true in calls of this library itself
 
 const char* variable(const char* name) {
   const char* value = std::getenv(name);
@@ -87,7 +87,7 @@ void start() {
 
 bool is_kind(const char* kind) { return std::strcmp(settings.kind, kind) == 0; }
 
-// Is it this call's turn?
+// Returns whether this call must fail.
 bool due(const char* call, std::uint64_t* number = nullptr) {
   if (!active || inside || std::strcmp(settings.call, call) != 0) return false;
   const std::uint64_t n = std::atomic_ref(settings.tally->calls).fetch_add(1) + 1;
@@ -150,7 +150,7 @@ int note_module(dl_phdr_info* info, std::size_t, void*) {
 
 int note_if_new(dl_phdr_info* info, std::size_t, void* is_new) {
   *static_cast<bool*>(is_new) = info->dlpi_adds != modules_seen;
-  return 1;  // the first one tells
+  return 1;  // Each module has these counts, so the first suffices.
 }
 
 void note_new_modules() {
@@ -167,7 +167,7 @@ Owner owner_at(std::uintptr_t place) {
   return Owner::others;
 }
 
-/// Who asks for memory: the innermost callers.
+/// The innermost callers of an allocation.
 struct Stack {
   std::uint64_t hash = 0xcbf29ce484222325;
   int depth = 0;
@@ -185,7 +185,7 @@ _Unwind_Reason_Code add_frame(_Unwind_Context* context, void* stack) {
   return ++found.depth < kDeep ? _URC_NO_REASON : _URC_END_OF_STACK;
 }
 
-// The first call from each stack is noted, so that a test can take one of each.
+// Notes the first call from each stack, so that a test can take one of each.
 void note_place(const Stack& stack, std::uint64_t number) {
   static std::array<std::uint64_t, 1 << 18> known;
   for (std::size_t slot = stack.hash % known.size();; slot = (slot + 1) % known.size()) {
@@ -213,7 +213,7 @@ bool refuse_allocation() {
   return refused;
 }
 
-/// As the standard has it: the program's handler is called for as long as it returns.
+/// Allocates by the standard's rule: the program's handler is called for as long as it returns.
 void* allocate_or_throw(std::size_t size, std::size_t alignment) {
   while (true) {
     void* const memory =

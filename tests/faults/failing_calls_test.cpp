@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever call fails, the program ends with the right code and leaves whole files or none.
+// When any call fails, the program ends with the right code and leaves whole files or none.
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -55,20 +55,20 @@ void expect_promise_kept(FaultBench& bench, const Fault& fault, const std::vecto
     failed += static_cast<int>(run.tally.failed);
     EXPECT_EQ(bench.broken_promise(run, codes), "") << fault.call << " " << fault.kind << " " << number;
   }
-  // Which call is the n-th may change by a few between runs with several threads.
+  // The n-th call may shift by a few between runs with several threads.
   EXPECT_GE(failed, static_cast<int>(numbers.size()) * 9 / 10) << fault.call << " " << fault.kind;
 }
 
 class FailingCalls : public ::testing::TestWithParam<FaultCase> {};
 
-/// How one kind of call may fail, and the codes the program may end with then.
+/// A way in which one kind of call fails, and the codes that the program may then end with.
 struct Trouble {
   const char* call;
   std::vector<const char*> kinds;
   std::vector<int> codes;
 };
 
-// A few of each kind of call, evenly spread.
+// Checks a few calls of each kind, evenly spread.
 void expect_promise_kept(const FaultCase& command, const std::vector<Trouble>& troubles) {
   constexpr std::size_t kMost = 4;
   FaultBench bench(command);
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Files, FailingCalls, testing::ValuesIn(all_cases()), na
 
 class FailingEncoder : public ::testing::TestWithParam<FaultCase> {};
 
-// The encoder's own writes, all from one on, as on a disk that is full.
+// The encoder's own writes fail from one on, like on a full disk.
 TEST_P(FailingEncoder, GivesNoFilm) {
   FaultBench bench(GetParam());
   const Fault fault{"write", "full", 0, "ffmpeg"};
@@ -109,8 +109,8 @@ TEST_P(FailingEncoder, GivesNoFilm) {
 
 INSTANTIATE_TEST_SUITE_P(Films, FailingEncoder, testing::ValuesIn(kFilms), name_of);
 
-// Allocations fail, alone or with all that come later: of those from different stacks of callers some, evenly spread.
-// The options of the program, which every command begins with, are a case of their own.
+// Allocations fail, alone or with all later ones, at some of the different stacks of callers, evenly spread. The
+// options of the program, which every command begins with, are a case of their own.
 class FailingAllocations : public ::testing::TestWithParam<FaultCase> {
  protected:
   void check(const std::string& kind, std::size_t most) {
@@ -131,7 +131,7 @@ class FailingAllocations : public ::testing::TestWithParam<FaultCase> {
 TEST_P(FailingAllocations, OneIsMissing) { check("once", 12); }
 TEST_P(FailingAllocations, NoneIsLeft) { check("on", 8); }
 
-// oneTBB that gets no memory may keep a lock, for which its destructors then wait for ever.
+// When oneTBB gets no memory, it may keep a lock for which its destructors then wait without end.
 TEST(FailingAllocationsOfThreads, EndTheProgramToo) {
   FaultBench bench(kComputing.front());
   const Fault fault{"allocate", "once", 0, "meniscus", "libtbb.so"};
@@ -142,7 +142,7 @@ TEST(FailingAllocationsOfThreads, EndTheProgramToo) {
 
 INSTANTIATE_TEST_SUITE_P(Options, FailingAllocations, testing::Values(FaultCase{"version", {"--version"}}), name_of);
 INSTANTIATE_TEST_SUITE_P(Computing, FailingAllocations, testing::ValuesIn(kComputing), name_of);
-// With GL it is the program's allocations that fail, and those of the libraries that write pictures; not the driver's.
+// The GL cases fail allocations of the program and of libraries that write pictures, but not those of the driver.
 INSTANTIATE_TEST_SUITE_P(Pictures, FailingAllocations, testing::Values(kPictures.front()), name_of);
 
 }  // namespace

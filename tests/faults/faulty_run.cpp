@@ -30,7 +30,7 @@ std::size_t count_of(const std::string& word, const std::string& text) {
   return count;
 }
 
-/// Three frames of three atoms, which part.
+/// Returns three frames of three atoms that move apart.
 std::string walk() {
   std::string text;
   for (int frame = 0; frame < 3; ++frame) {
@@ -43,7 +43,7 @@ std::string walk() {
   return text;
 }
 
-/// Without the time that stages took, and without the date in pictures.
+/// Returns the text without times of stages and without dates in pictures.
 std::string timeless(const std::string& text) {
   static const std::regex time(R"("ms": ?[-+.0-9e]+|time +[.0-9]+ ms|\d{4}:\d\d:\d\d \d\d:\d\d:\d\d)");
   return std::regex_replace(text, time, "");
@@ -69,7 +69,7 @@ FaultyRun FaultBench::run(const Fault& fault) const {
   const TemporaryFolder output, notes;
   const std::string in = input_.path().string(), out = output.path().string();
   const std::string tally = (notes.path() / "tally").string();
-  // The folders lie beside each other, and what concerns them begins alike.
+  // The folders lie next to each other, and their paths begin alike.
   const std::string folder = fs::temp_directory_path() / "meniscus-test-";
   std::vector<std::string> words{"LD_PRELOAD=" MENISCUS_FAILING_CALLS,
                                  "FAULT_PROGRAM=" + fault.program,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the program with one of its calls failing, and checks what is left.
+// Runs the program with one of its calls failing, and checks the files that remain.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct FaultCase {
   std::vector<std::string> arguments;
 };
 
-/// Which call fails, and how; the words of failing_calls.cpp.
+/// A call that fails, and its way to fail, in the words of failing_calls.cpp.
 struct Fault {
   std::string call, kind;
   std::uint64_t at = 0;
@@ -26,7 +26,7 @@ struct Fault {
   std::string library = {};  ///< empty: all
 };
 
-/// How a run ended: what it said, and each file it left, with hidden ones, by its path below the folder.
+/// Messages of a run and each file that it left, also hidden ones, by its path below the folder.
 struct FaultyRun {
   ProgramResult result;
   std::map<std::string, std::string> files;
@@ -39,7 +39,7 @@ class FaultBench {
  public:
   explicit FaultBench(FaultCase command);
 
-  /// The run without a fault, and with the calls of this kind counted. Fails the test unless it ends with 0.
+  /// Runs without a fault and counts the calls of this kind. Fails the test unless the run ends with 0.
   const FaultyRun& sound(const Fault& fault);
   FaultyRun run(const Fault& fault) const;
 
@@ -54,8 +54,8 @@ class FaultBench {
   FaultyRun sound_;
 };
 
-/// These numbers, or where there are more than `most`, so many of them, evenly spread; all if the environment has
-/// MENISCUS_ALL_FAULTS.
+/// Returns these numbers, or where there are more than `most`, so many of them, evenly spread; returns all if the
+/// environment has MENISCUS_ALL_FAULTS.
 std::vector<std::uint64_t> sampled(std::vector<std::uint64_t> numbers, std::size_t most);
 
 }  // namespace meniscus::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An incomplete film is detected, wherever it ends and whatever it lacks.
+// An incomplete film is detected wherever it ends and whichever part it lacks.
 #include "app/film/film.h"
 
 #include <filesystem>

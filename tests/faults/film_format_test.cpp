@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Films are as requested, as ffprobe reports, and their colours come back.
+// Films have the requested format, which ffprobe reports, and their colours come back.
 #include "app/film/film.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using test::TemporaryFolder;
 constexpr glm::ivec2 kSize{1024, 120};
 constexpr int kPictures = 4;
 
-/// A grey ramp in the upper half, three colours in the lower one; less and less opaque to the right. Values in [0, 1].
+/// Returns a grey ramp in the upper half, three colours in the lower one, less opaque to the right; in [0, 1].
 glm::vec4 shown_at(int x, int y) {
   const float along = static_cast<float>(x) / static_cast<float>(kSize.x - 1);
   if (y < kSize.y / 2) return {along, along, along, 1.0f - along};
@@ -58,7 +58,7 @@ void write_film(const std::string& path, const FilmFormat& format) {
   film.finish();
 }
 
-/// The first picture again: red, green, blue, alpha in [0, 1]. decoder: of ffmpeg, whose own leaves out alpha of VP9.
+/// Reads the first picture: red, green, blue, alpha in [0, 1]. decoder: of ffmpeg, whose own leaves out alpha of VP9.
 std::vector<glm::vec4> first_picture(const std::string& path, const std::string& decoder = "") {
   const std::string raw = path + ".raw";
   std::vector<std::string> words{"-loglevel", "error"};
@@ -82,7 +82,7 @@ std::vector<glm::vec4> first_picture(const std::string& path, const std::string&
 struct FilmCase {
   std::string name, ending;
   FilmFormat format;
-  std::string codec, pixels;  // as ffprobe names them
+  std::string codec, pixels;  // names in ffprobe
 };
 
 class FilmFormats : public ::testing::TestWithParam<FilmCase> {};

@@ -59,7 +59,7 @@ TEST(TwoWriters, BothMayReplaceAndTheFileIsWhole) {
   EXPECT_EQ(folder.entries(), Names{"a.ply"});
 }
 
-// Without a word of warning: what is left is hidden, and what has its name is whole. A molecule of 1.8 MB as mesh.
+// No warning is needed: unfinished files are hidden, and named files are whole. The molecule makes a mesh of 1.8 MB.
 TEST(Killed, AtAnyMomentItLeavesNoHalfFile) {
   const TemporaryFolder folder;
   const auto begin = std::chrono::steady_clock::now();
@@ -72,7 +72,7 @@ TEST(Killed, AtAnyMomentItLeavesNoHalfFile) {
     {
       const RunningProgram running(test::meniscus_program(), ply_command(output));
       std::this_thread::sleep_for(whole * (moment + 1) / kMoments);
-    }  // its end kills
+    }  // The destructor kills the program.
     if (fs::exists(output)) {
       EXPECT_EQ(read_bytes(output), sound);
     }
@@ -82,7 +82,7 @@ TEST(Killed, AtAnyMomentItLeavesNoHalfFile) {
 }
 
 TEST(ForbiddenFolder, IsAnErrorBeforeTheWorkBegins) {
-  std::vector<fs::path> folders{"/sys", "/proc"};  // where not even root may
+  std::vector<fs::path> folders{"/sys", "/proc"};  // Even root may not write there.
   const TemporaryFolder locked;
   if (::geteuid() != 0) {
     fs::permissions(locked.path(), fs::perms::owner_read | fs::perms::owner_exec);
@@ -103,14 +103,14 @@ TEST(ForbiddenFolder, IsAnErrorBeforeTheWorkBegins) {
   fs::permissions(locked.path(), fs::perms::owner_all);
 }
 
-/// Frames of two carbon atoms that part slowly.
+/// Returns frames of two carbon atoms that part slowly.
 std::string parting(int frames) {
   std::string text;
   for (int frame = 0; frame < frames; ++frame) text += fmt::format("2\n\nC 0 0 0\nC 0 0 {:.4f}\n", 2 + 1e-4 * frame);
   return text;
 }
 
-/// Runs over the frames of a file that `change` changes as soon as the first is done.
+/// Runs over the frames of a file that `change` changes as soon as the first frame is done.
 ProgramResult run_while(const std::string& file, const std::function<void()>& change) {
   RunningProgram running(test::meniscus_program(),
                          {"surface", file, "--frames", "all", "--json", "-q", "--device", "cpu", "--threads", "1"});
@@ -151,8 +151,8 @@ TEST_F(ChangedTrajectory, ThatShrinksOrIsWrittenAnewIsAnError) {
   EXPECT_NE(anew.err.find("was changed while it was read"), std::string::npos) << anew.err;
 }
 
-// Someone writes the file again again and again. (Who pauses in the middle for as long as we read is not noticed: that
-// is what the file held.)
+// Another process writes the file again and again. (A writer that pauses in the middle for as long as we read is not
+// noticed: the file then held that.)
 TEST(ChangedMolecule, ThatIsWrittenMeanwhileIsRefused) {
   const TemporaryFolder folder;
   const std::string lines(std::size_t{24} << 20, '\n');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// No room for a file, no memory, a closed output: one line, the documented code, and no half file.
+// Full disks, no memory and a closed output give one line, the documented code, and no half file.
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -19,9 +19,9 @@ using test::TemporaryFolder;
 using Names = std::vector<std::string>;
 
 constexpr const char* kFourBalls = "0 0 0 1.7\n2.6 0 0 1.6\n1.2 2.2 0.1 1.8\n1.1 0.8 2.1 1.5\n";
-constexpr int kBytesOfABlock = 512;  // of the shell's ulimit -f
+constexpr int kBytesOfABlock = 512;  // block size of the shell's ulimit -f
 
-/// In a shell: `before` may set limits, `after` redirects.
+/// Runs the program in a shell: `before` may set limits, `after` redirects.
 ProgramResult in_shell(const std::string& before, const std::string& arguments, const std::string& after = "") {
   return test::run_program("/bin/sh", {"-c", before + "\n" + test::meniscus_program() + " " + arguments + " " + after});
 }
@@ -57,7 +57,7 @@ TEST_F(NoRoom, ForASceneOrTable) {
   expect_refused(1, fmt::format("surface {} -q --device cpu --csv {}a.csv", kUbiquitin, out_), "File too large");
 }
 
-// A film is short of its first pictures, or of its last bytes only.
+// A film lacks its first pictures, or its last bytes only.
 TEST_F(NoRoom, ForAFilm) {
   for (const char* extension : {"mp4", "mkv", "mov"}) {
     const std::string film = out_ + "a." + extension;
@@ -69,7 +69,7 @@ TEST_F(NoRoom, ForAFilm) {
   }
 }
 
-// From what cannot even load the program to what is enough; loading is the system's, which says so and ends with 127.
+// Memory grows until it suffices; where even loading fails, which is the system's, the program ends with 127.
 TEST(NoMemory, IsOneLineAndExitFive) {
   bool was_refused = false, was_enough = false;
   for (int megabytes = 24; megabytes <= 3400 && !was_enough; megabytes += megabytes / 8) {
@@ -106,7 +106,7 @@ TEST(StandardOutput, ThatIsFullOrClosedIsAnError) {
   }
 }
 
-// Notes that nobody can hear are not a failure, and above all they are not written into the file that is open next.
+// Unread notes are not a failure, and above all they are not written into the file that is open next.
 TEST(StandardError, ThatIsFullOrClosedIsNone) {
   const TemporaryFolder folder;
   const std::string in = folder.file("four.xyzr", kFourBalls);

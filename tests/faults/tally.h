@@ -8,10 +8,10 @@
 namespace meniscus::test {
 
 struct Tally {
-  std::uint64_t calls = 0;   ///< of the kind that was asked for
-  std::uint64_t failed = 0;  ///< 1 if one was made to fail
-  std::uint64_t places = 0;  ///< allocations, when none fails: from how many different stacks of callers they come
-  std::array<std::uint64_t, 1 << 16> first{};  ///< and the number of the first from each
+  std::uint64_t calls = 0;                     ///< calls of the requested kind
+  std::uint64_t failed = 0;                    ///< 1 if one was made to fail
+  std::uint64_t places = 0;                    ///< number of call stacks that allocations came from, if none fails
+  std::array<std::uint64_t, 1 << 16> first{};  ///< number of the first allocation from each stack
 };
 
 }  // namespace meniscus::test

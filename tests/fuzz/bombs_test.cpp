@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Short inputs that ask for much are refused before they take much memory, time or stack.
+// Short inputs that claim large contents are refused before they take much memory, time or stack.
 #include <sys/resource.h>
 
 #include <ctime>
@@ -24,8 +24,8 @@
 namespace meniscus::fuzz {
 namespace {
 
-/// No more address space than the process has and 512 MB, and not more than ten seconds of a core, for the life of this
-/// object. With sanitizers ten times as long, and the memory has no bound.
+/// Bounds address space to 512 MB more than the process has, and time to ten seconds of a core, for the life of this
+/// object. With sanitizers the time is ten times as long, and memory has no bound.
 class Bounds {
  public:
   Bounds() {
@@ -66,7 +66,7 @@ TEST(Bombs, JsonOfBracketsAlone) {
       InputError);
 }
 
-// Every target that reads JSON, by brackets around the place where a value is.
+// Every target that reads JSON gets brackets around the place of a value.
 TEST(Bombs, JsonInEveryTarget) {
   const std::string deep = repeated("[", 300'000) + repeated("]", 300'000);
   for (const Target& target : targets()) {
@@ -83,7 +83,7 @@ TEST(Bombs, OperatorsOfAssemblies) {
   EXPECT_EQ(operator_factors("(1-99999)", "a.cif").at(0).size(), 99'999u);
 }
 
-// The name belongs to every product, and is written once.
+// The name belongs to every product, and is written only once.
 TEST(Bombs, AnOperatorOfALongName) {
   const Bounds bounds;
   const std::string cif =
@@ -129,7 +129,7 @@ TEST(Bombs, ListsOfFrames) {
   EXPECT_EQ(parse_frame_list("--frames", "0-99999999:100000", 100'000'000).size(), 1'000u);
 }
 
-// Records whose size is 2^64 bytes, which is 0 in the numbers of a computer, and what is divided by it.
+// Records have 2^64 bytes, which is 0 in 64-bit numbers, and other sizes are divided by it.
 TEST(Bombs, NetcdfRecordsOf64Bits) {
   test::ByteWriter file(std::endian::big);
   const auto name = [&](const std::string& text) {
@@ -150,7 +150,7 @@ TEST(Bombs, NetcdfRecordsOf64Bits) {
   constexpr std::uint64_t kVariables = (1 << 14) + 1;
   file.put(std::uint32_t{11}).put(kVariables);
   for (std::uint64_t n = 0; n < kVariables; ++n) {
-    const bool atoms = n + 1 == kVariables;  // coordinates, of 12 bytes a record
+    const bool atoms = n + 1 == kVariables;  // coordinates with 12 bytes a record
     name(atoms ? "coordinates" : std::to_string(n));
     file.put(std::uint64_t{atoms ? 3u : 2u}).put(std::uint64_t{0}).put(std::uint64_t{atoms ? 1u : 3u});
     if (atoms) file.put(std::uint64_t{2});
@@ -162,7 +162,7 @@ TEST(Bombs, NetcdfRecordsOf64Bits) {
   EXPECT_THROW(kAmberNetcdfFormat.open(scratch.write(file.bytes()), {}), InputError);
 }
 
-// The one number whose absolute value is negative was residue 0.
+// The only number with a negative absolute value was once residue 0.
 TEST(Bombs, ResidueNumbersOf64Bits) {
   const auto pqr = [](const std::string& residue) { return "ATOM 1 C ALA " + residue + " 1 2 3 0.1 1.5\n"; };
   const auto psf = [](const std::string& residue) {

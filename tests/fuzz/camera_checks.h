@@ -6,7 +6,7 @@
 
 namespace meniscus::fuzz {
 
-/// Its axes are orthonormal, rays through the corners of a picture have a direction, and it is valid.
+/// Checks that a camera is valid, its axes are orthonormal, and rays through the corners of a picture have a direction.
 void check_camera(const Camera& camera);
 
 bool same_camera(const Camera& a, const Camera& b);

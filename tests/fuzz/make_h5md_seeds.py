@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the seeds of H5MD from scratch into the folder given; h5py is Debian's python3-h5py."""
+"""Writes the seeds of H5MD from scratch into a folder; h5py is Debian's python3-h5py."""
 
 import os
 import sys
@@ -9,7 +9,7 @@ import numpy as np
 
 
 def write(path, vectors, offset=None):
-    """Two atoms in three frames; `vectors`: the box as vectors of each frame, steps as an increment."""
+    """Writes two atoms in three frames; `vectors`: the box is given as vectors of each frame, steps as an increment."""
     with h5py.File(path, "w", libver="earliest") as file:
         position = file.create_group("particles/all/position")
         value = position.create_dataset("value", data=np.arange(18, dtype="f4").reshape(3, 2, 3))
@@ -26,7 +26,7 @@ def write(path, vectors, offset=None):
 os.makedirs(sys.argv[1], exist_ok=True)
 write(os.path.join(sys.argv[1], "edges.h5md"), False)
 write(os.path.join(sys.argv[1], "vectors.h5md"), True)
-if len(sys.argv) > 2:  # where the inputs go that were wrong once
+if len(sys.argv) > 2:  # The second folder is for inputs that once failed.
     os.makedirs(sys.argv[2], exist_ok=True)
     write(os.path.join(sys.argv[2], "offset_of_many_numbers.h5md"), True, np.arange(1000))
     write(os.path.join(sys.argv[2], "step_beyond_64_bits.h5md"), True, np.int64(2**63 - 1))

@@ -28,7 +28,7 @@ import numpy as np  # noqa: E402
 import samples  # noqa: E402
 from meniscus_import import joined, mesh_arrays, mns_reader, sequence_reader  # noqa: E402
 
-warnings.simplefilter("error")  # a number that overflows shows as another one
+warnings.simplefilter("error")  # A number that overflows would become another one.
 
 def small_manifest():
     return {"format": "meniscus surface sequence", "version": 1, "run": "r", "origin": [0, 0, 0], "scale": 0.1,
@@ -52,7 +52,7 @@ def with_odd_value(tree, rng):
 
 
 def damaged(data, rng):
-    """One of: header values, numbers in arrays, any bytes, another end, deep nesting."""
+    """Changes header values, numbers in arrays, or any bytes, or sets another end or deep nesting."""
     header, size = samples.header_of(data)
     action = rng.randrange(10)
     if action < 6:
@@ -81,7 +81,7 @@ def deeply_nested(data):
 
 
 def check_file(path):
-    """What the add-on relies on in a file that was read."""
+    """Checks the properties of a file that the add-on relies on."""
     file = mns_reader.read(path)
     for surface in file.objects:
         vertices = len(surface["mesh.position"])
@@ -97,7 +97,7 @@ def check_file(path):
 
 
 def check_arrays(file, surface):
-    """What is made of a surface before Blender gets it: finite numbers, of the object alone and joined."""
+    """Checks that the numbers for Blender are finite, for the object alone and joined."""
     try:
         parts = [surface, joined.joined(file, np.zeros(3)), *(part for _, part in joined.by_role(surface))]
         for part in parts:
@@ -134,14 +134,14 @@ def check_storyboard(path):
 
 
 def holds(check, path):
-    """Is the file read soundly, or refused with one sentence that names it? Prints what else happened."""
+    """Returns whether the file is read soundly or refused with one sentence that names it; prints anything else."""
     try:
         check(path)
     except mns_reader.MnsError as error:
         if path in str(error):
             return True
         print(f"the refusal names no file: {error}")
-    except Exception:  # whatever else escapes is what this test is for
+    except Exception:  # This test looks for any other exception.
         traceback.print_exc()
     else:
         return True

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of what readers give.
+// Checks the atoms of readers.
 #include "tests/fuzz/reader_checks.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::optional<FileContents> read(const Reader& reader, const TextFile& file, con
   return std::nullopt;
 }
 
-/// The quick way and the thorough one give the same positions.
+/// Checks that quick and thorough reading give the same positions.
 void check_positions(const Reader& reader, const TextFile& file, const std::optional<FileContents>& contents) {
   std::vector<glm::dvec3> quick;
   if (!reader.positions || !reader.positions(file.text, quick) || !contents || contents->models != 1) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conditions that every reader of molecules must meet, whatever its input.
+// Conditions that every reader of molecules must meet for any input.
 #pragma once
 
 #include <string_view>
@@ -14,11 +14,11 @@ namespace meniscus::fuzz {
 /// then goes the whole way from a file to a structure. `file`: the name has the format's extension.
 void check_reader(const Reader& reader, const ScratchFile& file, std::string_view bytes);
 
-/// Numbers are finite or missing and within their bounds, and there are no more atoms than a text of so many bytes can
-/// name.
+/// Checks that numbers are finite or missing and within their bounds, and that no more atoms exist than a text of so
+/// many bytes can name.
 void check_contents(const FileContents& contents, std::size_t bytes);
 
-/// A dozen atoms of two residues, water and an ion, with all that atoms can have.
+/// Returns a dozen atoms of two residues, water and an ion, with all possible fields.
 std::vector<Atom> sample_atoms();
 
 }  // namespace meniscus::fuzz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every seed and every input that once was a crash, through the same targets without a fuzzer: in any build.
+// Every seed and every former crash runs through the same targets without a fuzzer, in any build.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -21,7 +21,7 @@ std::string content_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// How many files of this folder, made for the target, it was given.
+/// Replays the target's files in this folder and returns their number.
 std::size_t replay(const Target& target, const char* folder) {
   std::size_t count = 0;
   const fs::path inputs = fs::path(test::test_file("fuzz")) / folder / target.name;
@@ -45,7 +45,7 @@ TEST_P(FuzzReplay, SeedsAndCrashes) {
 INSTANTIATE_TEST_SUITE_P(Targets, FuzzReplay, testing::ValuesIn(targets().begin(), targets().end()),
                          [](const auto& target) { return std::string(target.param.name); });
 
-/// A key that bundles came to need would leave all that is read behind it to nobody.
+/// A new required key of bundles would make seeds fail early, so that later code is never reached.
 TEST(FuzzInputs, SeedsOfBundlesAreBundles) {
   const ScratchFile scratch("bundle.json");
   for (const fs::directory_entry& seed :
@@ -55,7 +55,7 @@ TEST(FuzzInputs, SeedsOfBundlesAreBundles) {
   }
 }
 
-/// A folder that belongs to no target is replayed by nobody.
+/// No test would replay a folder that belongs to no target.
 TEST(FuzzInputs, BelongToTargets) {
   for (const char* folder : {"seeds", "crashes"}) {
     for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(test::test_file("fuzz")) / folder)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The list of targets, and what they share.
+// The list of targets, and their common functions.
 #include "tests/fuzz/target.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ std::vector<Target>& list() {
   return all;
 }
 
-/// A control character of ASCII but the line end, one of U+0080 to U+009F in UTF-8, or U+2028 to U+202E, which turn a
-/// line around or break it.
+/// Returns whether a text begins with a control character of ASCII but the line end, one of U+0080 to U+009F in UTF-8,
+/// or U+2028 to U+202E, which turn a line around or break it.
 bool begins_with_control(std::string_view text) {
   const auto byte = static_cast<unsigned char>(text[0]);
   if (text.size() > 2 && text.starts_with("\xe2\x80") && text[2] >= '\xa8' && text[2] <= '\xae') return true;

@@ -9,8 +9,8 @@
 
 namespace meniscus::fuzz {
 
-/// `run` returns for all bytes, having checked what must hold for them; it throws PropertyError where it does not, and
-/// lets through what the product should not have thrown.
+/// A name and a function that returns for all bytes after its checks; it throws PropertyError where a check fails, and
+/// lets through exceptions that the product should not have thrown.
 struct Target {
   const char* name;
   void (*run)(std::string_view bytes);
@@ -24,7 +24,7 @@ struct Registration {
   Registration(const char* name, void (*run)(std::string_view bytes));
 };
 
-/// What should hold does not.
+/// Reports a property that does not hold.
 class PropertyError : public std::exception {
  public:
   explicit PropertyError(std::string what) : what_(std::move(what)) {}
@@ -37,11 +37,11 @@ class PropertyError : public std::exception {
 /// Throws PropertyError unless the property holds.
 void require(bool holds, const char* property);
 
-/// The message of an error is for one line of a terminal: not empty, no control characters but the line end before a
-/// caret.
+/// Checks that an error's message suits one line of a terminal: not empty, no control characters but the line end
+/// before a caret.
 void require_clear(const std::exception& error);
 
-/// A file in a folder of its own, which goes with the process; for functions that want a path.
+/// A file in a folder of its own, which vanishes with the process, for functions that want a path.
 class ScratchFile {
  public:
   explicit ScratchFile(const std::string& name);
@@ -49,7 +49,7 @@ class ScratchFile {
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
 
-  /// Gives the file this content; its path.
+  /// Gives the file this content and returns its path.
   const std::string& write(std::string_view bytes) const;
   const std::filesystem::path& folder() const { return folder_; }
 

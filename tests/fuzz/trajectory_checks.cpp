@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of what trajectories give.
+// Checks the frames of trajectories.
 #include "tests/fuzz/trajectory_checks.h"
 
 #include <algorithm>

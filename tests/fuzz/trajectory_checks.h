@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conditions that every reader of trajectories must meet, whatever its input.
+// Conditions that every reader of trajectories must meet for any input.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@
 namespace meniscus::fuzz {
 
 /// Opens the bytes as this format and reads frames, some of them twice: numbers are finite, boxes have a shortest
-/// image, and frames do not depend on what was read before. `file`: the name has the format's extension.
+/// image, and frames do not depend on earlier reads. `file`: the name has the format's extension.
 void check_trajectory(const TrajectoryFormat& format, const ScratchFile& file, std::string_view bytes);
 
 }  // namespace meniscus::fuzz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contour build-up on the GPU in double precision against the same text in C++: whether double is double there.
+// Contour build-up on the GPU agrees with the same text in C++, so that double precision is double there.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -20,7 +20,7 @@
 namespace meniscus {
 namespace {
 
-/// As gpu_shaders/test_support/contour.comp has it.
+/// The struct of gpu_shaders/test_support/contour.comp.
 struct Answer {
   glm::uvec4 counted;
   glm::dvec2 ends[8];
@@ -86,7 +86,7 @@ TEST(ContourOnGpu, DecidesTiesInDouble) {
     for (std::size_t n = 0; n < answers.size(); ++n) {
       const geometry::Remainder expected = on_host(of, of.circles[n]);
       const Answer& found = answers[n];
-      // Which of them are in doubt hangs on the last bits of a bound.
+      // The last bits of a bound decide which of them are in doubt.
       if (expected.exposed_doubtful || found.counted.z != 0) continue;
       ++decided;
       ASSERT_EQ(found.counted.x, expected.exposed_count) << name << ", circle " << n;

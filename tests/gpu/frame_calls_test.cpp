@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a steady frame asks of GL, call by call: budgets for frames of moving atoms once sizes have settled.
+// GL calls of a steady frame have budgets, for frames of moving atoms once sizes have settled.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -43,7 +43,7 @@ class FrameCalls : public ::testing::Test {
   }
   void TearDown() override { plan({}); }
 
-  /// All atoms on their way, as frame `n` of a trajectory.
+  /// Returns all atoms on their way, for frame `n` of a trajectory.
   Balls moved(int n) const {
     Balls balls = atoms_;
     for (std::size_t a = 0; a < balls.size(); ++a)
@@ -51,7 +51,7 @@ class FrameCalls : public ::testing::Test {
     return balls;
   }
 
-  /// The calls of the last of some frames, none of which found anything compiled or made again.
+  /// Returns the calls of the last of some frames, none of which compiled or remade anything.
   GlCalls steady(const std::string& name, const std::function<void(const Balls&)>& frame) {
     for (int n = 0; n < 3; ++n) frame(moved(n));
     plan({});
@@ -109,7 +109,7 @@ TEST_F(FrameCalls, ViewWithEffects) {
   EXPECT_EQ(calls.textures_changed, 0u);
 }
 
-// Frames that trust in the sizes of those before them, where that is right and where it is not.
+// Frames trust in the sizes of earlier frames, both where that is right and where it is wrong.
 TEST_F(FrameCalls, TrustChangesNoPicture) {
   settings_.size = {160, 120};
   for (const Extent extent : {Extent::visible, Extent::complete}) {
@@ -121,7 +121,7 @@ TEST_F(FrameCalls, TrustChangesNoPicture) {
     for (int n = 0; n < 12; ++n) {
       Balls balls = moved(n);
       for (Ball& ball : balls)
-        if (n % 4 == 2) ball.center *= n % 8 == 2 ? 0.8 : 1.6;  // crowds grow, everything scatters
+        if (n % 4 == 2) ball.center *= n % 8 == 2 ? 0.8 : 1.6;  // Crowds grow, or everything scatters.
       Camera camera = camera_;
       if (n % 3 == 1) camera.position += 0.5 * (camera.target - camera.position);
       view.set_atoms(balls);
@@ -149,7 +149,7 @@ TEST_F(FrameCalls, TrustChangesNoPicture) {
   }
 }
 
-/// Least milliseconds that `frame` takes the host while all dispatches are dropped.
+/// Returns the least milliseconds that `frame` takes the host while all dispatches are dropped.
 double host_milliseconds(const std::function<void(int)>& frame) {
   double least = 1e9;
   for (int n = 0; n < 9; ++n) {
@@ -161,7 +161,7 @@ double host_milliseconds(const std::function<void(int)>& frame) {
   return least;
 }
 
-// Budgets for a machine under load: several times what it takes.
+// The budgets suit a machine under load: they are several times the usual time.
 TEST_F(FrameCalls, HostsPartOfAFrame) {
   Balls block = lattice(70, 70, 70, 2.4);  // 343,000 atoms
   for (std::size_t a = 0; a < block.size(); ++a) {
@@ -201,7 +201,7 @@ TEST_F(FrameCalls, HostsPartOfAFrame) {
   }
 }
 
-// Its result comes to the host, which has a part in it.
+// The result comes to the host, which computes a part of it.
 TEST_F(FrameCalls, ReducedSurface) {
   const auto engine = make_gpu_engine(context_);
   const GlCalls calls = steady("reduced surface", [&](const Balls& atoms) {

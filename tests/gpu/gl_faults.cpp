@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wrappers around the GL calls that matter, put into epoxy's pointers.
+// Wraps the GL calls that can fail, and puts the wrappers into epoxy's pointers.
 #include "tests/gpu/gl_faults.h"
 
 #include <type_traits>
@@ -15,7 +15,7 @@ using Kind = GlFault::Kind;
 
 GlFault planned;
 GlCalls calls;
-bool waits = false;        // the next read, for a dispatch
+bool waits = false;        // true if the next read waits for a dispatch
 std::uint32_t unmade = 0;  // groups that an idle GPU says it has finished
 
 bool lost() { return planned.kind == Kind::reset && calls.error_questions > planned.at; }
@@ -27,14 +27,14 @@ bool drops_this_dispatch() {
          (planned.kind == Kind::drop_one && n == planned.at);
 }
 
-/// The driver's own function behind one of epoxy's pointers.
+/// Returns the driver's own function behind one of epoxy's pointers.
 template <auto& pointer>
 auto driver(const char* name) {
   static const auto function = reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(eglGetProcAddress(name));
   return function;
 }
 
-/// Counts a call and hands it on.
+/// Counts a call and passes it on.
 template <auto& pointer, std::uint32_t GlCalls::*count, typename Function>
 struct Counted;
 template <auto& pointer, std::uint32_t GlCalls::*count, typename Result, typename... Arguments>
@@ -84,7 +84,7 @@ void read_buffer(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data) {
   count_read();
   if (lost() || planned.kind == Kind::no_reads) return;
   driver<epoxy_glGetNamedBufferSubData>("glGetNamedBufferSubData")(buffer, offset, size, data);
-  GLint account = 0;  // of the groups that came to their end
+  GLint account = 0;  // buffer that counts finished groups
   glGetIntegeri_v(GL_ATOMIC_COUNTER_BUFFER_BINDING, 0, &account);
   if (buffer == static_cast<GLuint>(account) && offset == 0) *static_cast<GLuint*>(data) += unmade;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gl_faults.h for a whole program: preloaded, it plans what MENISCUS_TEST_GL_FAULT says, as in "drop_from 12".
+// Preloads gl_faults.h into a whole program, with the fault in MENISCUS_TEST_GL_FAULT, such as "drop_from 12".
 #include <cstdlib>
 #include <sstream>
 #include <string>

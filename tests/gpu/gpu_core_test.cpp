@@ -165,7 +165,7 @@ TEST_F(GpuCore, CacheCompilesOnce) {
   EXPECT_NE(&first, &cache.get("gpu_shaders/test_support/scale.comp"));
 }
 
-// What a kernel does, done by the host: counts all, and writes what has a place.
+// The host acts like a kernel: it counts all records, and writes those that have a place.
 TEST_F(GpuCore, AppendedRecordsAllFindTheirPlace) {
   constexpr std::size_t kHeader = 16;
   AppendList numbers(sizeof(std::uint32_t), 4, kHeader), others(sizeof(std::uint32_t), 2);
@@ -174,7 +174,7 @@ TEST_F(GpuCore, AppendedRecordsAllFindTheirPlace) {
   int runs = 0;
   const auto append = [&](std::uint32_t count, std::uint32_t other_count) {
     const std::uint32_t first = numbers.count();
-    std::array<std::uint32_t, 3> counted{};  // the last one: a counter of no list
+    std::array<std::uint32_t, 3> counted{};  // The last counter belongs to no list.
     append_all({&numbers, &others}, counters, counted, [&] {
       ++runs;
       const auto before = counters.download<std::uint32_t>(3);
@@ -192,9 +192,9 @@ TEST_F(GpuCore, AppendedRecordsAllFindTheirPlace) {
   };
   append(3, 0);
   EXPECT_EQ(runs, 1);
-  append(100, 1);  // too many for the first
+  append(100, 1);  // too many records for the first list
   EXPECT_EQ(runs, 3);
-  append(1, 50);  // too many for the second, which makes both run again
+  append(1, 50);  // too many records for the second list, which makes both run again
   EXPECT_EQ(runs, 5);
   append(0, 0);
   EXPECT_EQ(runs, 6);
@@ -209,7 +209,7 @@ TEST_F(GpuCore, AppendedRecordsAllFindTheirPlace) {
   EXPECT_EQ(numbers.count(), 0u);
 }
 
-// Both ways of scanning, around the lengths of their chunks and rows of chunks.
+// Both ways of scanning are tried around the lengths of their chunks and rows of chunks.
 TEST_F(GpuCore, ScansOfAllKindsAgree) {
   ProgramCache programs;
   PrefixSum serial(programs, ScanKind::serial), parallel(programs, ScanKind::parallel);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program on a GPU that stops, and on a second driver (zink on lavapipe): the exit code, and what files there are.
+// The program on a stopping GPU and on a second driver (zink on lavapipe): exit codes and files.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kLavapipe = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
 
-/// The program with more in its environment.
+/// Runs the program with more variables in its environment.
 test::ProgramResult run_with(std::vector<std::string> environment, const std::vector<std::string>& arguments) {
   environment.emplace_back(test::meniscus_program());
   environment.insert(environment.end(), arguments.begin(), arguments.end());
@@ -24,7 +24,7 @@ test::ProgramResult run_with(std::vector<std::string> environment, const std::ve
 
 class StoppingGpu : public ::testing::Test {
  protected:
-  /// The first atoms of ubiquitin, alone and as two models.
+  /// Writes the first atoms of ubiquitin, alone and as two models.
   void SetUp() override {
     std::ifstream file(kUbiquitin);
     ASSERT_TRUE(file) << kUbiquitin;
@@ -109,7 +109,7 @@ std::vector<std::string> zink_environment(const test::TemporaryFolder& folder) {
           "XDG_RUNTIME_DIR=" + folder.path().string()};
 }
 
-// One pipeline for one molecule after another: it was here that zink started kernels with numbers of an earlier one.
+// One pipeline serves one molecule after another: here zink once started kernels with an earlier one's numbers.
 TEST(SecondDriver, TakesMoleculesInTurn) {
   const test::TemporaryFolder folder;
   const auto result = test::run_program("/usr/bin/env", [&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Functions of the same names as GLSL's, put behind the #version line of every kernel.
+// Adds inexact functions with GLSL's names behind the #version line of every kernel.
 #include "tests/gpu/inexact_shaders.h"
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GPUs whose arithmetic is less exact than the CPU's find the very same surface, or the difference is seen.
+// GPUs with less exact arithmetic than the CPU's find the very same surface, or the difference is noticed.
 #include <string>
 #include <vector>
 
@@ -21,7 +21,7 @@ class InexactGpu : public ::testing::Test {
  protected:
   void TearDown() override { compile_exactly(); }
 
-  /// Those whose surface is not the CPU's.
+  /// Returns the names of molecules whose surface is not the CPU's.
   std::vector<std::string> different(const std::vector<NamedBalls>& molecules) {
     const auto engine = make_gpu_engine(context_);
     StageClock clock;
@@ -54,7 +54,7 @@ TEST_F(InexactGpu, FindsTheSameSurface) {
 }
 
 TEST_F(InexactGpu, IsSeenWhereItGoesTooFar) {
-  // What double precision decides by less than the growth of weights goes to the host: single precision shows it.
+  // Decisions that double precision takes by less than the growth of weights go to the host: single precision shows it.
   compile_inexactly(1u << 20, 5);
   EXPECT_FALSE(different(degenerate_molecules()).empty()) << "the test above sees nothing";
 }

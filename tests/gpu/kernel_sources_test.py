@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What real drivers refuse or get wrong in GLSL, and the reference compiler lets pass, is in no kernel."""
+"""Kernels are free of GLSL that real drivers refuse or get wrong, though the reference compiler accepts it."""
 import pathlib
 import re
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-#: Types that may be double, or hold one.
+#: Types that are double in some builds, or contain one.
 DOUBLES = r"(?:double|dvec[234]|real[23]?|Circle|Blocker|HalfPlane|CoveredArc|ExposedArc|FixedProbe|RollingArc|SaddleShape|PatchBound)"
-#: Arrays of such types that may stay: file, name, why.
+#: Arrays of such types that may stay, by file and name, with the reason.
 HARMLESS = {
     ("reduced_surface/exposed_arcs.glsl", "exposed_arcs"),  # of floats: where it is double, another one takes its place
     ("geometry/patch_bounds.glsl", "height"),               # these four: no index is a variable
@@ -21,7 +21,7 @@ HARMLESS = {
 
 
 def sources():
-    """(path below gpu_shaders, text without comments and buffers, which are in memory)."""
+    """Yields the path below gpu_shaders and the text without comments and buffers, which are in memory."""
     for path in sorted((ROOT / "gpu_shaders").rglob("*")):
         if path.suffix in {".comp", ".glsl"}:
             text = re.sub(r"//.*", "", path.read_text())
@@ -30,11 +30,11 @@ def sources():
 
 class KernelSources(unittest.TestCase):
     def test_no_array_with_a_variable_index_holds_doubles(self):
-        """NVIDIA's compiler (580.159) rounds them to floats without a word."""
+        """NVIDIA's compiler (580.159) silently rounds them to floats."""
         found = set()
         for path, text in sources():
             if path.startswith("test_support/"):
-                text = re.sub(r"struct Answer \{.*?\};", "", text, flags=re.S)  # of a buffer
+                text = re.sub(r"struct Answer \{.*?\};", "", text, flags=re.S)  # The struct is a buffer's.
             for name in re.findall(rf"\b{DOUBLES} (\w+)\[", text):
                 found.add((path, name))
         self.assertEqual(found, HARMLESS)
@@ -45,7 +45,7 @@ class KernelSources(unittest.TestCase):
                 self.assertIn(index, "01", f"{path}: {name}[{index}]")
 
     def test_what_is_only_written_is_not_read_in_a_chain(self):
-        """`a[i] = b[i] = 1u` reads b, which NVIDIA's compiler refuses of a writeonly buffer."""
+        """`a[i] = b[i] = 1u` reads b, which NVIDIA's compiler refuses for a writeonly buffer."""
         for path, text in sources():
             self.assertIsNone(re.search(r"\w+\[[^]]*\] = \w+\[[^]]*\] =[^=]", text), path)
 

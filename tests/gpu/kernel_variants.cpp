@@ -15,7 +15,7 @@ std::vector<ShaderDefines> variants_of(const EmbeddedShader& shader) {
       variants.push_back({{"PASS", pass}});
   for (const char* word : {"LISTED", "RESUMED", "SHADE", "SILHOUETTES", "SOME_HIDDEN", "WHOLE_SPHERES"})
     if (text.find("#ifdef " + std::string(word)) != std::string::npos) variants.push_back({{word, "1"}});
-  // Many include precision.glsl for single precision alone.
+  // Many kernels include precision.glsl for single precision alone.
   if (shader.text.find("#ifdef DOUBLE_PRECISION") != std::string::npos) variants.push_back({{"DOUBLE_PRECISION", "1"}});
   return variants;
 }

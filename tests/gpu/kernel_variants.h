@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All the forms in which a kernel is compiled.
+// Returns all the forms in which a kernel is compiled.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// Without any define, for each pass, and with each switch that the kernel or its includes ask for.
+/// Returns the variants without defines, for each pass, and with each switch that the kernel or its includes use.
 std::vector<ShaderDefines> variants_of(const EmbeddedShader& shader);
 
 }  // namespace meniscus

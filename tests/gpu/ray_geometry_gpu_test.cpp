@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ray caster's geometry functions on the GPU in single precision against the same text in C++ in double.
+// The ray caster's geometry on the GPU in single precision agrees with the same text in C++ in double.
 #include <cmath>
 #include <random>
 
@@ -46,7 +46,7 @@ TEST(RayGeometryOnGpu, FindsTheRootsOfTheDoubleVersion) {
     const auto exact = geometry::ray_torus(q.origin, q.direction, q.major, q.minor, -20, 20, 1e-14);
     const int count = static_cast<int>(answers[n].normal_at_first.w);
     if (count != exact.count) {
-      ++grazing;  // two roots so near to each other that rounding merges them
+      ++grazing;  // Rounding merges two roots that are near each other.
       continue;
     }
     for (int i = 0; i < count; ++i) {
@@ -65,7 +65,7 @@ TEST(RayGeometryOnGpu, FindsTheRootsOfTheDoubleVersion) {
       EXPECT_NEAR(answers[n].sphere.y, sphere.far_t, 1e-4);
     }
   }
-  EXPECT_GT(compared, 20000);  // the test has seen something
+  EXPECT_GT(compared, 20000);  // Enough roots were compared.
   EXPECT_LT(grazing, 20);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a real GPU's compiler makes of the kernels: registers, memory for those that do not fit, time. The compiler is
-// that of Mesa's RADV for AMD's Navi 21, which needs no such GPU.
+// A real GPU's compiler reports registers, spilled memory and time of the kernels. The compiler is Mesa's RADV for
+// AMD's Navi 21, which needs no such GPU.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -27,10 +27,10 @@ namespace {
 
 const std::filesystem::path kDriver = "/usr/share/vulkan/icd.d/radeon_icd.x86_64.json";
 
-/// GL counts bindings for each kind of resource, Vulkan for all together: where those of a kind begin.
+/// First binding of each kind of resource: GL counts them for each kind, Vulkan for all together.
 constexpr std::uint32_t kStorage = 0, kTexels = 32, kBlocks = 64, kImages = 96, kOfAKind = 16;
 
-/// The kernel in SPIR-V.
+/// Compiles the kernel to SPIR-V.
 std::vector<std::uint32_t> compile_to_spirv(const ShaderSource& source, const std::filesystem::path& folder) {
   const auto file = folder / "shader.comp", binary = folder / "shader.spv";
   std::ofstream(file) << source.text;
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> compile_to_spirv(const ShaderSource& source, const st
   return words;
 }
 
-/// A Vulkan structure of this type, all else zero.
+/// Returns a Vulkan structure of this type, zero but for the type.
 template <typename Structure>
 Structure begun(VkStructureType type) {
   Structure structure{};
@@ -55,7 +55,7 @@ Structure begun(VkStructureType type) {
   return structure;
 }
 
-/// What became of a kernel, by the driver's own words, such as "VGPRs".
+/// Numbers of a compiled kernel by the driver's own names, such as "VGPRs".
 struct CompiledKernel {
   std::map<std::string, std::uint64_t> numbers;
   double seconds = 0.0;
@@ -139,7 +139,7 @@ class CompilingDevice {
     if (vkCreateDevice(physical, &info, nullptr, &device_) == VK_SUCCESS) create_layout();
   }
 
-  /// One for all kernels: every binding that one may have.
+  /// Makes one layout for all kernels, with every possible binding.
   void create_layout() {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const auto& [first, type] : {std::pair{kStorage, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
@@ -188,11 +188,11 @@ ShaderSource without_proof_of_work(const EmbeddedShader& shader, const ShaderDef
     if (found == embedded_shaders().end()) return {};
     return found->text;
   };
-  return expand_shader(shader.path, find, defines);  // Vulkan has no atomic counters, of which the proof is made
+  return expand_shader(shader.path, find, defines);  // Vulkan lacks the atomic counters of the proof of work.
 }
 
-/// Of one invocation, out of 256: with more of them fewer groups run at once and memory is waited for. Most kernels do
-/// with a third; those that cut circles or patches in double precision hold two of them at once.
+/// Returns the most registers of an invocation, out of 256: with more, fewer groups run at once and memory is waited
+/// for. Most kernels need a third; those that cut circles or patches in double precision hold two of them at once.
 std::uint64_t most_registers(std::string_view path) {
   const std::map<std::string_view, std::uint64_t> kMore{
       {"gpu_shaders/primitives/spurious_arcs.comp", 136}, {"gpu_shaders/primitives/toroidal.comp", 168},
@@ -211,8 +211,8 @@ TEST(Registers, EveryKernelFitsIntoThoseOfAGpu) {
   ASSERT_TRUE(device.works()) << device.name();
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("meniscus_registers_{}", ::getpid());
   std::filesystem::create_directories(folder);
-  constexpr std::uint64_t kMostCode = 48'000;  // bytes; beyond, it leaves the instruction cache
-  constexpr double kMostSeconds = 30.0;        // for all; a tenth of it on an idle machine
+  constexpr std::uint64_t kMostCode = 48'000;  // Larger code leaves the instruction cache.
+  constexpr double kMostSeconds = 30.0;        // time for all; an idle machine takes a tenth of it
   std::size_t kernels = 0;
   double seconds = 0.0;
   for (const EmbeddedShader& shader : embedded_shaders()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is written into pictures is where it belongs, and a bar is as long as it says.
+// Writing in pictures is in its place, and a bar has its stated length.
 #include "core/render/annotation.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Framebuffer written(const Annotations& annotations, const Camera& camera = kOrth
   return picture;
 }
 
-/// Low and high corner of what is drawn within a part of the picture; nothing drawn: high is 0.
+/// Returns the low and high corner of drawn pixels within a part of the picture; nothing drawn: high is 0.
 glm::ivec4 extent(const Framebuffer& picture, glm::ivec2 low = glm::ivec2(0), glm::ivec2 high = kSize) {
   glm::ivec4 found(kSize, 0, 0);
   for (int y = low.y; y < high.y; ++y)
@@ -73,7 +73,7 @@ TEST(Annotations, PlacesAreThoseThatTheCameraShows) {
     EXPECT_NEAR(place.y, 110.0, 1e-9);
   }
   EXPECT_DOUBLE_EQ(angstroms_per_pixel(kOrthographic, kSize), 0.1);
-  // The upper edge of a perspective picture is half its angle above the middle; what is nearer is larger.
+  // The upper edge of a perspective picture is half its angle above the middle; nearer things are larger.
   const double half = 50.0 * std::tan(15.0 * 3.14159265358979 / 180.0);
   EXPECT_NEAR(place_in_picture(kPerspective, kSize, {0, half, 0})->y, 0.0, 1e-9);
   EXPECT_NEAR(place_in_picture(kPerspective, kSize, {0, 0.5 * half, 25})->y, 0.0, 1e-9);
@@ -91,13 +91,13 @@ TEST(Annotations, ABarIsAsLongAsItSays) {
     Annotations bar;
     bar.scale_bar = true;
     bar.bar_length = length;
-    const glm::ivec4 found = extent(written(bar), {0, 283}, kSize);  // below its text
+    const glm::ivec4 found = extent(written(bar), {0, 283}, kSize);  // the part below its text
     EXPECT_NEAR(found.z - found.x, 10.0 * length, 1.0);
     EXPECT_LT(found.x, 20);
     EXPECT_LT(found.w, 300);
   }
   Annotations bar;
-  bar.scale_bar = true;  // a quarter of 40 Å
+  bar.scale_bar = true;  // The bar is a quarter of 40 Å.
   const glm::ivec4 found = extent(written(bar), {0, 283}, kSize);
   EXPECT_NEAR(found.z - found.x, 100.0, 1.0);
   for (const double length : {1000.0, 0.01}) {
@@ -127,7 +127,7 @@ TEST(Annotations, LabelsLeadToTheirPlacesAndDoNotMeet) {
   const glm::ivec4 found = extent(picture);
   EXPECT_GT(found.z, 255) << "its text is farther out";
   EXPECT_LT(found.y, 95);
-  // Two at one place: both are written, so that more is covered.
+  // Both of two labels at one place are written, so that more is covered.
   const auto covered = [](const Framebuffer& of) {
     double sum = 0.0;
     for (const glm::vec4& pixel : of.color) sum += pixel.w;
@@ -136,7 +136,7 @@ TEST(Annotations, LabelsLeadToTheirPlacesAndDoNotMeet) {
   Annotations two = one;
   two.labels.push_back(one.labels.front());
   EXPECT_GT(covered(written(two)), 1.7 * covered(picture));
-  // One that the picture does not show is left out.
+  // A label outside of the picture is left out.
   one.labels = {{"far", {500.0, 0.0, 0.0}}};
   EXPECT_EQ(extent(written(one)).z, 0);
 }
@@ -179,7 +179,7 @@ TEST(Annotations, LengthsAreNextToTheirLinesUnlessHiddenOrInTheWay) {
   const glm::ivec4 upright = extent(written(one));
   EXPECT_NEAR(0.5 * (upright.y + upright.w), 0.5 * kSize.y, 4.0);
   EXPECT_TRUE(upright.x > kSize.x / 2 || upright.z < kSize.x / 2);
-  // The second is on the other side, and there is no place for a third.
+  // The second label is on the other side, and there is no place for a third.
   const auto covered = [&] {
     double sum = 0.0;
     for (const glm::vec4& pixel : written(one).color) sum += pixel.w;
@@ -202,7 +202,7 @@ TEST(Annotations, LengthsAreNextToTheirLinesUnlessHiddenOrInTheWay) {
 
 TEST(Annotations, ACurveHasItsMarkWhereThePictureIs) {
   Annotations run;
-  // Of the pixel or one above or below it.
+  // The largest share of the pixel or of one above or below it counts.
   const auto share = [&](std::size_t now, glm::ivec2 place) {
     run.curve->now = now;
     const Framebuffer picture = written(run);
@@ -212,7 +212,7 @@ TEST(Annotations, ACurveHasItsMarkWhereThePictureIs) {
     return most;
   };
   run.curve = Curve{"volume", {10, 20, 30, 40, 50}, 0};
-  // From (268, 288), the least at the left, to (388, 252).
+  // The curve goes from (268, 288), its least point at the left, to (388, 252).
   const glm::ivec2 places[] = {{268, 287}, {298, 279}, {328, 270}, {358, 261}, {387, 252}};
   for (std::size_t now = 0; now < 5; ++now)
     for (std::size_t n = 0; n < 5; ++n) {
@@ -299,7 +299,7 @@ TEST(Annotations, LettersHaveARimBeforeTheMoleculeOnly) {
   annotate(clear, panel, kOrthographic, std::nullopt);
   int white = 0;
   for (std::size_t n = 0; n < covered.color.size(); ++n) {
-    white += covered.color[n].y > 0.4f;  // a rim of one pixel covers half of it
+    white += covered.color[n].y > 0.4f;  // A rim of one pixel covers half of it.
     EXPECT_NEAR(covered.color[n].w, 1.0f, 1e-5f);
     EXPECT_LE(clear.color[n].x, 0.02f) << "dark alone";
   }

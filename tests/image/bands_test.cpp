@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures that are made and written in bands: the bits of the whole picture, and the bytes of its file.
+// Pictures that are made and written in bands have the bits of the whole picture, and the bytes of its file.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -37,7 +37,7 @@ struct Subject {
       coloring.atom.push_back(n % 2 ? glm::vec3(0.8f, 0.25f, 0.2f) : glm::vec3(0.3f, 0.5f, 0.9f));
       coloring.part.push_back(static_cast<std::uint32_t>(n / 200));
     }
-    settings.size = {230, 330};  // no whole number of tiles
+    settings.size = {230, 330};  // The sides are no whole numbers of tiles.
     settings.samples = 2;
     objects.emplace_back();
     objects[0].surface = &surface;
@@ -63,7 +63,7 @@ Look drawing() {
 
 void append(auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); }
 
-/// Bands of 48 rows put together again.
+/// Puts bands of 48 rows together again.
 struct Gathered {
   Framebuffer picture;
   int bands = 0;
@@ -226,7 +226,7 @@ TEST_F(BandFile, IsThatOfTheWholePictureWithAllThatIsWrittenIntoIt) {
     }
 }
 
-/// Whether the pixels' chunks are a stream of so many bytes with their checksum, at which readers of PNG do not look.
+/// Returns whether the pixels' chunks are a stream of so many bytes with their checksum, which readers of PNG ignore.
 bool is_whole_stream(const std::vector<std::uint8_t>& png, std::size_t size) {
   std::vector<std::uint8_t> stream, rows(size);
   for (std::size_t at = 8; at + 12 <= png.size();) {
@@ -278,7 +278,7 @@ TEST_F(BandFile, OfALargePngIsCompressedInPieces) {
   EXPECT_EQ(wrong, 0u);
 }
 
-// Within one second too, which is as fine as some caches look at a file's time.
+// The second write may be within one second, which is as fine as some caches look at a file's time.
 TEST_F(BandFile, APictureThatIsWrittenAgainIsReadAgain) {
   for (const int size : {16, 64, 8}) {
     ImageToEncode image;

@@ -29,7 +29,7 @@ SurfaceObject object_of(const Balls& balls) {
   return object;
 }
 
-/// Turned copies at the places of a lattice of so many columns, rows and layers.
+/// Returns turned copies at the places of a lattice of so many columns, rows and layers.
 std::vector<RigidMotion> lattice(glm::ivec3 counts, double step) {
   std::mt19937 random(3);
   std::vector<RigidMotion> motions;
@@ -40,7 +40,7 @@ std::vector<RigidMotion> lattice(glm::ivec3 counts, double step) {
   return motions;
 }
 
-/// Two molecules, whose copies are among each other and into each other.
+/// Returns two molecules, whose copies lie among each other and into each other.
 std::vector<SurfaceObject> crowd() {
   std::vector<SurfaceObject> objects{object_of(testing::ubiquitin()), object_of(testing::c60())};
   objects[0].copies = lattice({4, 3, 3}, 34.0);
@@ -50,7 +50,7 @@ std::vector<SurfaceObject> crowd() {
 
 void expect_same_bits(const std::vector<SurfaceObject>& objects, const Camera& camera, RenderSettings settings,
                       const std::string& name) {
-  settings.size = {230, 170};  // no whole number of tiles
+  settings.size = {230, 170};  // The sides are no whole numbers of tiles.
   CpuRenderer whole, together, one_by_one(16, 1);
   const SurfaceObject all = merged(objects);
   const Framebuffer expected = whole.render(whole_surface(all.surface, all.coloring), camera, settings);
@@ -177,7 +177,7 @@ TEST(Copies, AreDrawnAndPickedAsTheMergedSurface) {
   EXPECT_GT(picked, 500u);
 }
 
-// At whichever question it is told to stop; the picture of before stays.
+// A stop at any question ends the work, and the earlier picture stays.
 TEST(Copies, AreGivenUp) {
   const std::vector<SurfaceObject> objects = crowd();
   const Camera camera = framed(objects, Projection::perspective);
@@ -198,13 +198,13 @@ TEST(Copies, AreGivenUp) {
   EXPECT_LT(questions, last + 50) << "what has begun comes to its end, and no more";
 }
 
-// What begins behind all that is seen is neither moved nor packed.
+// Copies behind everything visible are neither moved nor packed.
 TEST(Copies, BehindOthersAreLeftWhereTheyAre) {
   std::vector<SurfaceObject> objects{object_of(testing::ubiquitin())};
   const std::vector<Ball>& atoms = objects[0].surface.atoms;
   const ViewBasis basis = broad_side(atoms);
   Camera camera = frame_camera(atoms, 1.0, Projection::orthographic);
-  camera.height = 4.0;  // nothing but the middle of the molecule
+  camera.height = 4.0;  // The picture shows only the middle of the molecule.
   for (int n = 1; n < 50; ++n) objects[0].copies.push_back({glm::dmat3(1.0), 60.0 * n * basis.forward});
   const PictureFrame frame = make_picture_frame(placed_balls(objects), camera, {64, 64});
   const PackPlacement placement = place_atoms(placed_balls(objects), kWater, frame);
@@ -216,7 +216,7 @@ TEST(Copies, BehindOthersAreLeftWhereTheyAre) {
   const HostPack& scene = copies.scene();
   EXPECT_EQ(copies.moved(), 1u);
   EXPECT_GT(scene.packed.primitives.size(), 0u);
-  EXPECT_LT(scene.packed.primitives.size(), 100u);  // of some 4,000
+  EXPECT_LT(scene.packed.primitives.size(), 100u);  // There are about 4,000.
   EXPECT_EQ(scene.colors.size(), atoms.size());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures that the CPU makes: those of GL but for rounding, and the same bits for any vectors, threads and blocks.
+// Pictures of the CPU equal those of GL but for rounding, with the same bits for any vectors, threads and blocks.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace {
 
 using testing::Balls;
 
-/// A surface in two colours, and how its picture is wanted.
+/// A surface in two colours, and the settings of its picture.
 struct Picture {
   std::string name;
   Surface surface;
@@ -35,7 +35,7 @@ struct Picture {
       : name(std::move(name_)), surface(compute_surface_cpu(balls, probe_radius)) {
     for (std::size_t n = 0; n < surface.atoms.size(); ++n)
       coloring.atom.push_back(n % 2 ? glm::vec3(0.8f, 0.25f, 0.2f) : glm::vec3(0.3f, 0.5f, 0.9f));
-    settings.size = {230, 170};  // no whole number of tiles
+    settings.size = {230, 170};  // The sides are no whole numbers of tiles.
     settings.samples = 2;
     settings.aovs = true;
     camera = frame_camera(surface.atoms, 230.0 / 170.0, projection);
@@ -86,11 +86,11 @@ std::vector<Picture> pictures() {
   return all;
 }
 
-/// How many pixels are not alike.
+/// Numbers of pixels that differ.
 struct Difference {
-  int color = 0;        ///< in 8 bits
-  int by_more = 0;      ///< than 1 of 255
-  int worst_color = 0;  ///< of a channel, in 8 bits
+  int color = 0;        ///< colours that differ in 8 bits
+  int by_more = 0;      ///< colours that differ by more than 1 of 255
+  int worst_color = 0;  ///< largest difference of a channel, in 8 bits
   int atom = 0, depth = 0;
 };
 
@@ -142,7 +142,7 @@ void expect_same_bits(const Framebuffer& a, const Framebuffer& b, const std::str
 }
 
 TEST(CpuPicture, IsTheSameWhateverTheVectorWidth) {
-  // Where the machine has no longer vectors the shorter ones are compared with themselves.
+  // Where the machine has no longer vectors, the shorter ones are compared with themselves.
   const auto longest = std::make_unique<StillRenderer>();
   for (const int lanes : {4, 8}) {
     const auto other = std::make_unique<StillRenderer>(lanes);
@@ -174,7 +174,7 @@ TEST(CpuPicture, AdaptiveSamplesShowWhatAllSamplesShow) {
     const Framebuffer some = picture.by(*renderer);
     const Difference found = difference(all, some);
     EXPECT_LE(found.by_more, 480 * 360 / 10'000) << picture.name;
-    EXPECT_LE(found.worst_color, 94) << picture.name;  // one of nine samples at the edge of a clear picture
+    EXPECT_LE(found.worst_color, 94) << picture.name;  // One of nine samples differs at the edge of a clear picture.
     EXPECT_GT(found.color, 0) << picture.name << " leaves out no sample";
     EXPECT_EQ(found.atom + found.depth, 0) << picture.name;
     picture.settings.block_edge = 48;
@@ -205,7 +205,7 @@ TEST(CpuPicture, AdaptiveSamplesMissNothingThin) {
   EXPECT_TRUE(std::ranges::any_of(all.color, [](const glm::vec4& color) { return color.w > 0.0f; }));
 }
 
-/// What is left of the light where shade falls, in 8 bits: of squares of `edge` pixels wholly covered, else -1.
+/// Returns the light that shade leaves, in 8 bits, for squares of `edge` pixels that are wholly covered, else -1.
 std::vector<int> shaded_grays(const Framebuffer& picture, int edge) {
   const glm::ivec2 size = picture.size / edge;
   std::vector<int> grays(static_cast<std::size_t>(size.x) * size.y, -1);
@@ -226,12 +226,12 @@ TEST(CpuPicture, ShadeIsThatOfTheMoleculeAtAnyResolution) {
   picture.coloring.atom.assign(picture.coloring.atom.size(), glm::vec3(0.7f));
   picture.settings.aovs = false;
   picture.settings.look.ambient_occlusion = 1.0f;
-  picture.settings.look.ambient_occlusion_radius = 15.0f;  // some 150 and 750 pixels
+  picture.settings.look.ambient_occlusion_radius = 15.0f;  // about 150 and 750 pixels
   picture.settings.samples = 9;
   picture.settings.size = {480, 360};
   const std::vector<int> small = shaded_grays(picture.by(*renderer), 1);
   picture.settings.samples = 1;
-  picture.settings.size = {5 * 480, 5 * 360};  // more than its map of depths has
+  picture.settings.size = {5 * 480, 5 * 360};  // more pixels than its map of depths has
   const std::vector<int> large = shaded_grays(picture.by(*renderer), 5);
   std::vector<int> differences;
   for (std::size_t n = 0; n < small.size(); ++n)
@@ -242,7 +242,7 @@ TEST(CpuPicture, ShadeIsThatOfTheMoleculeAtAnyResolution) {
   EXPECT_LE(differences[differences.size() / 2], 1);
 }
 
-// A ball far in front of a dark seam: at its rim some samples of a pixel see the one, some the other.
+// A ball is far in front of a dark seam: at its rim some samples of a pixel see the one, some the other.
 TEST(CpuPicture, ShadeThatSamplesShareIsThatOfWhatTheyMeet) {
   const auto renderer = std::make_unique<StillRenderer>();
   const Balls seam{{{-2.2, 0, 0}, 3.0}, {{2.2, 0, 0}, 3.0}}, ball{{{0, 0, 60}, 1.5}};

@@ -29,7 +29,7 @@ PAIR = (atom(1, "CA", "LYS", "A", 15, (0, 0, 0)) + atom(2, "CB", "LYS", "A", 15,
 
 
 def murmur(name):
-    """MurmurHash3_x86_32 as its author describes it; by 4 bytes, then the rest."""
+    """Returns MurmurHash3_x86_32 by its author's description: by 4 bytes, then the rest."""
     key, mask = name.encode(), 0xffffffff
     def mixed(k):
         k = k * 0xcc9e2d51 & mask
@@ -69,7 +69,7 @@ class Exr:
         return numpy.array(self.spec.getattribute(name), float).reshape(4, 4)
 
     def mattes(self, layer):
-        """The manifest, and a function from a name to its coverage of each pixel."""
+        """Returns the manifest, and a function from a name to its coverage of each pixel."""
         key = f"cryptomatte/{float_id(layer):08x}"[:-1]
         assert self.text(key + "/name") == layer, key
         assert (self.text(key + "/hash"), self.text(key + "/conversion")) == ("MurmurHash3_32", "uint32_to_float32")
@@ -97,7 +97,7 @@ class ExrLayers(unittest.TestCase):
         return Exr(self.folder / "a.exr")
 
     def projected(self, image, points):
-        """By the header, in pixels from the upper left corner."""
+        """Projects points by the header, into pixels from the upper left corner."""
         shape = points.shape[:-1]
         rows = numpy.c_[points.reshape(-1, 3), numpy.ones(len(points.reshape(-1, 3)))] @ image.matrix("worldToNDC")
         return (rows[:, :2] / rows[:, 3:] * [image.spec.width, image.spec.height]).reshape(*shape, 2)
@@ -112,7 +112,7 @@ class ExrLayers(unittest.TestCase):
                 rows, columns = numpy.nonzero(hit)
                 self.assertLess(abs(places - numpy.c_[columns + 0.5, rows + 0.5]).max(), 2e-3, (camera["projection"], more))
                 points = numpy.c_[image["P.x P.y P.z"][hit], numpy.ones(hit.sum())]
-                flip = [1, 1, -1]  # the standard's z runs along the view, that of the layers towards the viewer
+                flip = [1, 1, -1]  # The standard's z runs along the view, the layers' z towards the viewer.
                 self.assertLess(abs((points @ image.matrix("worldToCamera"))[:, :3] * flip - image["Pview.x Pview.y Pview.z"][hit]).max(), 2e-4)
                 turned = image["N.x N.y N.z"][hit] @ image.matrix("worldToCamera")[:3, :3] * flip
                 self.assertLess(abs(turned - image["Nview.x Nview.y Nview.z"][hit]).max(), 1e-5)
@@ -136,7 +136,7 @@ class ExrLayers(unittest.TestCase):
             self.assertEqual(set(manifest), names)
             self.assertEqual(manifest, {name: f"{float_id(name):08x}" for name in names})
             self.assertTrue((numpy.diff(shares, axis=2) <= 0).all(), "ranks fall")
-            self.assertLess(abs(shares.sum(2) - alpha).max(), 1e-6, layer)  # so never more than 1
+            self.assertLess(abs(shares.sum(2) - alpha).max(), 1e-6, layer)  # The sum is never more than 1.
             self.assertLess(abs(sum(matte(name) for name in names) - alpha).max(), 1e-6, layer)
 
     def test_the_matte_of_a_chain_is_the_picture_of_that_chain(self):
@@ -189,7 +189,7 @@ class ExrLayers(unittest.TestCase):
         self.assertEqual(aces.text("colorInteropID"), "lin_ap1_scene")
 
         def to_xyz(image):
-            """By the chromaticities of the header alone, in the white that Bradford's adaptation leads to D50."""
+            """Converts by the header's chromaticities, in the white that Bradford's adaptation leads to D50."""
             x = numpy.array(image.spec.getattribute("chromaticities"), float).reshape(4, 2)
             xyz = numpy.array([[a / b, 1, (1 - a - b) / b] for a, b in x]).T
             basis = xyz[:, :3] * numpy.linalg.solve(xyz[:, :3], xyz[:, 3])
@@ -204,7 +204,7 @@ class ExrLayers(unittest.TestCase):
         self.assertIn("--cryptomatte needs an .exr", self.run_program("pair.pdb", "--cryptomatte", "-o", "a.png", code=2))
 
     def run_of(self, places, *words, camera=ORTHOGRAPHIC):
-        """The frames of one atom at these places."""
+        """Returns the frames of one atom at these places."""
         models = "".join(f"MODEL     {n + 1:4}\n{atom(1, 'CA', 'ALA', 'A', 1, place)}ENDMDL\n" for n, place in enumerate(places))
         (self.folder / "run.pdb").write_text(models)
         if camera:
@@ -214,7 +214,7 @@ class ExrLayers(unittest.TestCase):
 
     def test_motion_leads_to_the_same_point_of_the_next_picture(self):
         straight = {**ORTHOGRAPHIC, "position": [3, 0, 40], "up": [0, 1, 0]}
-        # 6 pixels an ångström: 12 to the right and 6 upwards, then 6 to the left.
+        # At 6 pixels an ångström the atom moves 12 to the right and 6 upwards, then 6 to the left.
         first, second, last = self.run_of([(0, 0, 0), (2, 1, 0), (1, 1, 5)], camera=straight)
         hit = first["atom"] >= 0
         self.assertGreater(hit.sum(), 200)
@@ -238,7 +238,7 @@ class ExrLayers(unittest.TestCase):
                 self.assertGreater(abs(now["forward.u forward.v"][hit]).max(), 0.5, n)
 
     def test_motion_of_a_surface_that_turns(self):
-        """Of a rigid motion the normal part is that of the solid; the picture of the next frame shows it where it was led to."""
+        """A rigid motion's normal part is the solid's; the next picture shows the surface in the predicted place."""
         angle = 0.02
         turn = numpy.array([[numpy.cos(angle), -numpy.sin(angle), 0], [numpy.sin(angle), numpy.cos(angle), 0], [0, 0, 1]])
         places = numpy.array([(0, 0, 0), (2.5, 0, 0), (1.2, 2.4, 0.5), (3.5, 2.0, 1)])
@@ -254,14 +254,14 @@ class ExrLayers(unittest.TestCase):
         solid = ((points @ turn.T) - points)[:, :2] * 10  # pixels an ångström
         along = (now["forward.u forward.v"][hit] * normals).sum(1) - (solid * normals).sum(1)
         self.assertEqual(set(now["kind"][hit]), {0.0, 1.0, 2.0})
-        self.assertLess(abs(along).max(), 0.02)  # of 1.2; atoms were rounded to 0.001 Å
+        self.assertLess(abs(along).max(), 0.02)  # Motion reaches 1.2; atoms were rounded to 0.001 Å.
         self.assertGreater(abs(solid).max(), 0.4)
 
     def test_single_pictures_have_no_motion(self):
         self.assertNotIn("forward.u", self.render("--aovs").names)
 
     def test_the_standard_library_reads_the_same(self):
-        # OpenEXR of PyPI, from 3.3 on; Debian's has no File.
+        # OpenEXR of PyPI has File from 3.3 on; Debian's has none.
         OpenEXR = importlib.import_module("OpenEXR") if importlib.util.find_spec("OpenEXR") else None
         if not hasattr(OpenEXR, "File"):
             self.skipTest("OpenEXR of PyPI is not there")

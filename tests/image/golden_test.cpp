@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small pictures as they should look; scripts/check/update_golden.sh writes them again.
+// Small pictures are compared with kept ones; scripts/check/update_golden.sh writes these again.
 #include <cmath>
 #include <cstdlib>
 
@@ -27,7 +27,7 @@ std::vector<float> read_png(const std::string& path, int& channel_count) {
   return values;
 }
 
-/// 96 x 96 pixels, 4 samples, transparent.
+/// Renders 96 x 96 pixels with 4 samples, transparent.
 Framebuffer render(const testing::Balls& balls, bool by_kind, Projection projection, const Look& look = {},
                    glm::ivec2 size = {96, 96}) {
   const Surface surface = compute_surface_cpu(balls, 1.4);
@@ -58,7 +58,7 @@ void expect_golden(const std::string& name, const Framebuffer& picture) {
   ASSERT_EQ(values.size(), expected.size());
   int different = 0;
   for (std::size_t i = 0; i < values.size(); ++i) different += std::abs(values[i] - expected[i]) > 2.5f / 255.0f;
-  // Another driver may decide one sample of a few silhouette pixels otherwise.
+  // Another driver may decide one sample of a few silhouette pixels differently.
   EXPECT_LE(different, static_cast<int>(values.size()) / 1000) << "compare " << fresh << " with " << golden;
 }
 

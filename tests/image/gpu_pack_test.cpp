@@ -28,7 +28,7 @@ using ray_cast::Primitive;
 
 constexpr glm::ivec2 kSize{160, 120};
 
-/// A molecule, how it is coloured and from where it is seen.
+/// A molecule, its colours and its camera.
 struct View {
   std::string name;
   Surface surface;
@@ -63,7 +63,7 @@ std::vector<View> views() {
   return all;
 }
 
-/// What a picture shows, by patch and not by place.
+/// Hits of a picture, by patch and not by place.
 struct Shown {
   std::vector<glm::vec4> picture;
   std::vector<Hit> hits;  ///< with `primitive` replaced by kind and patch index
@@ -190,12 +190,12 @@ TEST_F(GpuScenes, TileDepthsLeaveOutOnlyWhatIsBehind) {
         tile = std::max(tile, hit.primitive == ray_cast::kNoPrimitive ? 1e30f : static_cast<float>(depth + 1e-3));
       }
     EXPECT_TRUE(cast(view, packed, depths) == expected) << view.name;
-    std::ranges::fill(depths, 0.0f);  // a wrong bound: everything that begins in front of the camera is gone
+    std::ranges::fill(depths, 0.0f);  // A wrong bound removes everything that begins in front of the camera.
     EXPECT_FALSE(cast(view, packed, depths) == expected) << view.name;
   }
 }
 
-/// True if a ray through some place of the tile comes to a point of the ball in front of the eye.
+/// Returns whether a ray through some place of the tile comes to a point of the ball in front of the eye.
 bool tile_sees(const PictureFrame& frame, glm::ivec2 tile, const glm::dvec3& center, double radius) {
   for (int n = 0; n < 81; ++n) {
     const glm::dvec2 pixel = (glm::dvec2(tile) + glm::dvec2(n % 9, n / 9) / 8.0) * static_cast<double>(kTileEdge);
@@ -226,7 +226,7 @@ TEST_F(GpuScenes, NoTileMissesABound) {
     frame.pixel_size = 2.0 * half_extent(frame.camera, 1.0).y / frame.size.y *
                        (frame.camera.projection == Projection::perspective ? frame.eye_distance : 1.0);
     std::vector<Primitive> primitives(300);
-    for (Primitive& p : primitives) {  // around the eye, around the axis close to it, anywhere
+    for (Primitive& p : primitives) {  // Balls are around the eye, around the axis close to it, or anywhere.
       const int where = std::uniform_int_distribution<int>(0, 2)(random_);
       const double along = 60.0 * uniform(random_), radius = std::pow(10.0, 2.0 * uniform(random_)) / (where ? 10 : 1);
       glm::dvec3 center = vector() * 60.0;
@@ -265,7 +265,7 @@ TEST_F(GpuScenes, NoTileMissesABound) {
 }
 
 TEST_F(GpuScenes, ListsTooLongForAKernelAreMadeOfSmallerBlocks) {
-  // A picture of one place: every tile lists every ball.
+  // Every tile of a picture of one place lists every ball.
   const int edge = 1024, tile_count = (edge / kTileEdge) * (edge / kTileEdge);
   const std::size_t limit = query_gpu_limits().storage_block_bytes;
   // Filling blocks of gigabytes takes more memory and time than a test has; the halving is the same on any driver.

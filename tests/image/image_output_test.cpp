@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Picture files read back: channels, alpha, colour space; and what is refused.
+// Picture files are read back with their channels, alpha and colour space; wrong settings are refused.
 #include "core/image/color_space.h"
 #include "core/render/image_output.h"
 
@@ -54,7 +54,7 @@ class ImageFile : public ::testing::Test {
   };
   static File read(const std::filesystem::path& path) {
     OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);  // as stored
+    config.attribute("oiio:UnassociatedAlpha", 1);  // The file's own values are read.
     auto input = OIIO::ImageInput::open(path.string(), &config);
     EXPECT_TRUE(input) << OIIO::geterror();
     File file{input->spec(), std::vector<float>(input->spec().image_pixels() * input->spec().nchannels)};
@@ -98,7 +98,7 @@ TEST_F(ImageFile, PngAndTiffAreSrgbWithUnassociatedAlpha) {
 }
 
 TEST_F(ImageFile, JpegHasWhiteBehindAndWebPItsAlpha) {
-  Framebuffer large = picture();  // blocks of JPEG and WebP blur what is smaller than they are
+  Framebuffer large = picture();  // Blocks of JPEG and WebP blur smaller areas.
   large.size = {64, 32};
   large.color.clear();
   for (int n = 0; n < 64 * 32; ++n)
@@ -131,7 +131,7 @@ TEST_F(ImageFile, TiffAndJpegHaveAProfile) {
   }
 }
 
-// The curve and the matrix say what core/image/color_space.h computes.
+// The curve and the matrix agree with core/image/color_space.h.
 TEST(SrgbProfile, IsThatOfTheFunctions) {
   const std::vector<std::uint8_t>& profile = srgb_profile();
   const auto word = [&](std::size_t at) {
@@ -151,7 +151,7 @@ TEST(SrgbProfile, IsThatOfTheFunctions) {
                               : value * fixed(curve + 12);
     EXPECT_NEAR(linear, linear_from_srgb(value), 5e-5) << value;
   }
-  // White is the illuminant of profiles, D50.
+  // White is D50, the illuminant of profiles.
   for (int axis = 0; axis < 3; ++axis) {
     const double sum = fixed(place_of("rXYZ") + 8 + 4 * axis) + fixed(place_of("gXYZ") + 8 + 4 * axis) +
                        fixed(place_of("bXYZ") + 8 + 4 * axis);
@@ -214,7 +214,7 @@ TEST_F(ImageFile, IsWholeOrNotThereWhenTheDiskIsFull) {
     write_image(folder_ / name, picture(), {});
     const auto whole = std::filesystem::file_size(folder_ / name);
     std::filesystem::remove(folder_ / name);
-    // From nothing to all but the last byte, behind which directories and end marks are.
+    // Room grows from nothing to all but the last byte, behind which directories and end marks are.
     for (rlim_t room = 0; room < whole; room += std::min<rlim_t>(13, std::max<rlim_t>(1, whole - 1 - room))) {
       const rlimit small{room, old.rlim_max};
       ::setrlimit(RLIMIT_FSIZE, &small);
@@ -230,7 +230,7 @@ TEST(ColorSpace, RoundTrips) {
   EXPECT_NEAR(linear_from_srgb(0.5f), 0.21404f, 1e-5);
 }
 
-// Films get their pixels from srgb_pixels(): to the bit what a PNG file has.
+// Films get their pixels from srgb_pixels(), equal to the bit to those of a PNG file.
 TEST_F(ImageFile, PixelsOfFilmsAreThoseOfPng) {
   Framebuffer ramp;
   ramp.size = {4096, 1};
@@ -247,7 +247,7 @@ TEST_F(ImageFile, PixelsOfFilmsAreThoseOfPng) {
   EXPECT_EQ(pixels, stored);
 }
 
-/// Up to the length of the first chunk of pixels: sizes, colours, notes.
+/// Returns the bytes up to the first chunk of pixels: sizes, colours, notes.
 std::vector<std::uint8_t> before_pixels(const std::vector<std::uint8_t>& png) {
   constexpr std::string_view kPixels = "IDAT";
   return {png.begin(), std::ranges::search(png, kPixels).begin() - 4};
@@ -277,7 +277,7 @@ TEST_F(ImageFile, PngIsThatOfOpenImageIO) {
         if (n % 4 < channels) values.push_back(static_cast<float>(pixels[n]) / 255.0f);
       const std::unique_ptr<RowEncoder> encoder = image_codec().begin(image);
       encoder->add(values);
-      // Of three channels the fourth byte is not one of the picture's.
+      // A picture of three channels has no use for the fourth byte.
       std::vector<std::uint8_t> theirs;
       encoder->finish([&](std::span<const std::byte> bytes) {
         for (const std::byte byte : bytes) theirs.push_back(std::to_integer<std::uint8_t>(byte));
@@ -299,12 +299,12 @@ TEST(DisplayColor, BytesOfATableAreThoseOfTheFormula) {
   std::vector<glm::vec4> pixels;
   const auto add = [&](float light) { pixels.emplace_back(light, 0.5f * light, 1.25f * light, 1.0f); };
   for (int n = 0; n <= 100000; ++n) add(static_cast<float>(n) / 100000.0f);
-  for (int byte = 1; byte < 256; ++byte) {  // on both sides of each step
+  for (int byte = 1; byte < 256; ++byte) {  // Values lie on both sides of each step.
     float light = linear_from_srgb((static_cast<float>(byte) - 0.5f) / 255.0f);
     for (int n = 0; n < 200; ++n) light = std::nextafter(light, 0.0f);
     for (int n = 0; n < 400; ++n) add(light = std::nextafter(light, 1.0f));
   }
-  for (std::size_t n = 0; n < pixels.size(); n += 3) pixels[n] *= 0.3f;  // alpha is multiplied in
+  for (std::size_t n = 0; n < pixels.size(); n += 3) pixels[n] *= 0.3f;  // Alpha is multiplied in.
   pixels.emplace_back(0.0f);
   struct Case {
     std::optional<glm::vec3> background;
@@ -340,7 +340,7 @@ TEST(DisplayColor, EdgesForLayoutAreOnAPageWhatTheyAreOnWhite) {
     for (int c = 0; c < 3; ++c) {
       EXPECT_GE(stored[c], -1e-5f);
       EXPECT_LE(stored[c], 1.0f + 1e-5f);
-      // As a program lays it out that blends what files hold.
+      // A program that blends the file's values computes this.
       EXPECT_NEAR(stored[c] * stored.w + 1.0f - stored.w, white[c], 1e-5f);
       if (pixels[n].x == pixels[n].y && pixels[n].y == pixels[n].z) {
         EXPECT_NEAR(stored[c] * stored.w, black[c], 1e-5f);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Labels and their lines never meet one another or what is written already, counted by other means than those that
-// place them.
+// Labels and their lines never meet each other or earlier writing; the test finds that by other means than the layout.
 #include "core/render/label_layout.h"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ struct Line {
   glm::dvec2 from, to;
 };
 
-/// Both in fine steps: whether two lines come within a pixel of each other.
+/// Returns whether two lines cross.
 bool touch(const Line& a, const Line& b) {
   const auto side = [](const Line& line, const glm::dvec2& point) {
     const glm::dvec2 along = line.to - line.from, to = point - line.from;
@@ -70,7 +69,7 @@ TEST(LabelLayout, NothingCrossesOrOverlapsWhereverTheAnchorsAre) {
   const LabelGround ground = ground_of(size);
   int placed = 0, all = 0;
   for (int molecule = 0; molecule < 60; ++molecule) {
-    // Anchors all over the picture, near its middle, or in a few heaps.
+    // Anchors are all over the picture, near its middle, or in a few heaps.
     const double spread = molecule % 3 == 0 ? 0.45 : molecule % 3 == 1 ? 0.25 : 0.06;
     std::vector<UnplacedLabel> labels;
     const int count = 2 + molecule % 20;

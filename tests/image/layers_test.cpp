@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of several objects, cut by planes and seen through: counted layers, caps by the oracle of the solid, shapes.
+// Pictures of several cut, transparent objects: counted layers, caps by the oracle of the solid, shapes.
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -23,7 +23,7 @@ using testing::Balls;
 
 constexpr float kOpacity = 0.5f;
 
-/// A surface in one colour, and a picture of it through the centres of pixels.
+/// A surface in one colour, whose picture is taken through the centres of pixels.
 struct Subject {
   Surface surface;
   Coloring coloring;
@@ -52,11 +52,11 @@ bool same_bits(const Framebuffer& a, const Framebuffer& b) {
          std::memcmp(a.color.data(), b.color.data(), a.color.size() * sizeof a.color[0]) == 0;
 }
 
-/// How many layers of kOpacity a pixel of one sample shows; fractions tell that it is not a whole number.
+/// Returns how many layers of kOpacity a pixel of one sample shows; a fraction means that layers are wrong.
 double layers(const glm::vec4& pixel) { return std::log(1.0 - pixel.w) / std::log(1.0 - kOpacity); }
 
-/// Pixels whose layers are not an even number, though every ray that enters a solid leaves it. Beyond ten layers
-/// rays end.
+/// Counts pixels whose layers are not an even number, though every ray that enters a solid leaves it. Rays end beyond
+/// ten layers.
 int odd_pixels(const Framebuffer& picture) {
   int odd = 0;
   for (const glm::vec4& pixel : picture.color) {
@@ -80,7 +80,8 @@ TEST(Layers, ComeInPairsOnClosedSurfaces) {
         testing::NamedBalls{"no probe", testing::ubiquitin(), 0.0}, testing::NamedBalls{"C60", testing::c60(), 0.5}}) {
     Subject subject(molecule.balls, molecule.probe_radius);
     subject.see_through();
-    EXPECT_LE(odd_pixels(subject.picture()), 2) << molecule.name;  // a ray that touches a border counts once, or thrice
+    EXPECT_LE(odd_pixels(subject.picture()), 2)
+        << molecule.name;  // A ray that touches a border counts once, or thrice.
   }
 }
 
@@ -98,7 +99,7 @@ TEST(Layers, ComeInPairsOnSlabsToo) {
 TEST(Layers, ComeInPairsWhereAPlaneIsSeenFromTheSide) {
   Subject subject(testing::enterotoxin());
   subject.see_through();
-  const glm::dvec3 left = -view_basis(subject.camera).right;  // rays on the left go out through the plane
+  const glm::dvec3 left = -view_basis(subject.camera).right;  // Rays on the left go out through the plane.
   subject.object.clip.push_back({left, glm::dot(left, subject.camera.position) + 5.0});
   const Framebuffer picture = subject.picture();
   EXPECT_LE(odd_pixels(picture), 2);
@@ -144,7 +145,7 @@ TEST(Layers, ACapOfABallIsADisk) {
   EXPECT_FLOAT_EQ(picture.normal[120 * 320 + 160].z, 1.0f);
 }
 
-// Of a row along the view only the farthest ball is left: then it is the nearest, and as bright as it is alone.
+// Only the farthest ball of a row along the view is left: it is then the nearest, and as bright as it is alone.
 TEST(Layers, AirBeginsWhereACutPictureDoes) {
   const Camera camera{.position = {0, 0, 60}, .projection = Projection::orthographic, .height = 10.0};
   const auto middle = [&](Subject& subject) {
@@ -204,7 +205,7 @@ TEST(Layers, OfOneOpaqueObjectMakeThePictureOfItAlone) {
   }
 }
 
-/// Sums of light over white paper.
+/// Returns the sum of light over white paper.
 double light(const Framebuffer& picture) {
   double sum = 0.0;
   for (const glm::vec4& pixel : picture.color) sum += pixel.x + (1.0 - pixel.w);
@@ -213,7 +214,7 @@ double light(const Framebuffer& picture) {
 
 TEST(Layers, WhatIsSeenThroughHasShadeAndLinesAsFarAsItCovers) {
   Subject subject(testing::ubiquitin());
-  subject.settings.look.material.specular = 0.0f;  // highlights of the shade are not part of this
+  subject.settings.look.material.specular = 0.0f;  // Highlights of the shade are not tested.
   const auto picture = [&](float opacity, bool effects) {
     subject.coloring.opacity.assign(opacity < 1.0f ? subject.surface.atoms.size() : 0, opacity);
     subject.settings.look.ambient_occlusion = effects ? 0.9f : 0.0f;
@@ -221,19 +222,19 @@ TEST(Layers, WhatIsSeenThroughHasShadeAndLinesAsFarAsItCovers) {
     subject.settings.look.depth_cue = effects ? 0.3f : 0.0f;
     return subject.picture();
   };
-  // Hardly seen through it is the opaque picture, hardly seen at all it has no lines.
+  // A surface that is nearly opaque looks like the opaque picture; one that is nearly invisible has no lines.
   const Framebuffer opaque = picture(1.0f, true), nearly = picture(0.9999f, true);
   float farthest = 0.0f;
   for (std::size_t n = 0; n < opaque.color.size(); ++n)
     for (int c = 0; c < 4; ++c) farthest = std::max(farthest, std::abs(opaque.color[n][c] - nearly.color[n][c]));
   EXPECT_LT(farthest, 0.002f);
   for (const glm::vec4& pixel : picture(0.001f, true).color) ASSERT_LT(pixel.w, 0.02f);
-  // Between them both make it darker, and less so the less it covers.
+  // In between, both effects make the surface darker, and less so the less it covers.
   const auto darker = [&](float opacity) { return light(picture(opacity, false)) - light(picture(opacity, true)); };
   const double half = darker(0.5f), quarter = darker(0.25f);
-  EXPECT_GT(quarter, 40.0);  // at an opacity of a quarter, a sixteenth of the light is blocked
+  EXPECT_GT(quarter, 40.0);  // An opacity of a quarter blocks a sixteenth of the light.
   EXPECT_GT(half, 1.5 * quarter);
-  // Beside it, lines of what is seen through reach as far as those of what is opaque.
+  // Lines next to a transparent surface reach as far as those of an opaque one.
   const Framebuffer halved = picture(0.5f, true);
   for (std::size_t n = 0; n < opaque.color.size(); ++n)
     ASSERT_EQ(opaque.color[n].w > 0.0f, halved.color[n].w > 0.0f) << n;
@@ -243,7 +244,7 @@ TEST(Layers, LinesOfWhatIsSeenThroughDoNotAddUpFromSampleToSample) {
   Subject subject({{{0.0, 0.0, 0.0}, 1.7}});
   subject.camera = {{0, 0, 20}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 6.0};
   subject.settings.samples = 4;
-  subject.settings.look.silhouettes = 14.0f;  // far into tiles where nothing is met
+  subject.settings.look.silhouettes = 14.0f;  // Lines reach far into empty tiles.
   const Framebuffer opaque = subject.picture();
   subject.coloring.opacity.assign(1, 0.9999f);
   const Framebuffer nearly = subject.picture();
@@ -313,14 +314,14 @@ TEST(Layers, CutShapesAreSolid) {
     PictureObject object;
     object.shapes = &subject.shapes;
     object.coloring = &subject.coloring;
-    object.clip.push_back({{0.0, 0.0, 1.0}, 0.0});  // the viewer's half is gone
+    object.clip.push_back({{0.0, 0.0, 1.0}, 0.0});  // The viewer's half is gone.
     const Framebuffer picture = CpuRenderer().render({&object, 1}, subject.camera, subject.settings);
     const std::size_t middle = 120 * 320 + 160;
     return std::abs(picture.position[middle].z) < 1e-3f && picture.kind[middle] == Framebuffer::kCap &&
            picture.color[middle].x > 0.1f;
   };
   EXPECT_TRUE(is_capped({{{0.0, 0.0, 0.0}, 1.5, 0}}));
-  // Beyond the plane the ray enters one sphere within the other, or leaves one and enters another.
+  // Beyond the plane the ray enters one sphere within the other, or leaves one sphere and enters another.
   EXPECT_TRUE(is_capped({{{0.0, 0.0, 0.0}, 1.5, 0}, {{0.0, 0.0, -0.8}, 0.5, 0}}));
   EXPECT_TRUE(is_capped({{{0.0, 0.0, 0.0}, 1.5, 0}, {{0.0, 0.0, -4.0}, 1.0, 0}}));
   EXPECT_FALSE(is_capped({{{0.0, 0.0, -2.0}, 1.5, 0}}));

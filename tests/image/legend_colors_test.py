@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers are read back from a picture as its readers do it: each sphere's colour is looked up on the colour bar of the
-same picture, whatever its lightness, and lies where the number of its atom does."""
+"""Numbers are read back from a picture in its readers' way: each sphere's colour is looked up on the colour bar of the
+same picture, for any lightness, and lies at the number of its atom."""
 
 import pathlib
 import subprocess
@@ -17,7 +17,7 @@ NUMBERS = [float(n) for n in range(COUNT)]
 
 
 def spheres():
-    """A sphere a number, each farther away than the one before, and some of them in the shade of others."""
+    """Returns a sphere for each number, each farther away than the last, and some of them in others' shade."""
     lines = []
     for n, number in enumerate(NUMBERS):
         x, y, z = 9.0 * (n % 3), 9.0 * (n // 3), -4.0 * n
@@ -37,7 +37,7 @@ def picture_of(path):
 
 
 def bar_of(pixels):
-    """Colours along the bar, from its lower end: the columns at the right in which most rows are neither paper nor ink."""
+    """Returns the colours along the bar from its lower end, from columns at the right with little paper and ink."""
     width = pixels.shape[1]
     colored = (pixels.max(axis=2) - pixels.min(axis=2) > 0.02) | ((pixels.max(axis=2) > 0.2) & (pixels.max(axis=2) < 0.9))
     strip = range(width * 7 // 8, width)
@@ -49,10 +49,9 @@ def bar_of(pixels):
 
 
 def place_on(bar, colors):
-    """The share of the bar at which all of these colours are found best, each with a lightness of its own."""
+    """Returns the share of the bar that fits all of these colours best, each with a lightness of its own."""
     bar, colors = linear(bar), linear(colors)
-    # What light, in [0, 1], makes of the bar's colour to come nearest to each; and how far it stays away, as the eye
-    # sees it.
+    # Light in [0, 1] brings the bar's colour nearest to each; the remaining distance is measured in the eye's terms.
     light = numpy.clip(colors @ bar.T / numpy.maximum((bar * bar).sum(axis=1), 1e-9), 0.0, 1.0)
     off = numpy.sqrt(light[..., None] * bar[None]) - numpy.sqrt(colors)[:, None]
     return numpy.argmin((off * off).sum(axis=(0, 2))) / (len(bar) - 1)
@@ -70,17 +69,17 @@ class LegendColors(unittest.TestCase):
             return picture_of(picture), result.stderr
 
     def places(self, pixels):
-        """Of each sphere where its colours are on the bar; spheres are parted by the paper between them."""
+        """Returns the place of each sphere's colours on the bar; spheres are parted by the paper between them."""
         bar = bar_of(pixels)
         molecule = pixels[:, : pixels.shape[1] * 7 // 8]
         ink = (numpy.abs(molecule - 1.0).max(axis=2) > 0.02)
         rows, columns = self.runs(ink.any(axis=1)), self.runs(ink.any(axis=0))
         self.assertEqual((len(rows), len(columns)), (3, 3))
         found = []
-        for low, high in reversed(rows):  # up is up
+        for low, high in reversed(rows):  # The upper row comes first.
             for left, right in columns:
                 y, x = (low + high) // 2, (left + right) // 2
-                reach = max(2, (high - low) // 4)  # clear of the outline
+                reach = max(2, (high - low) // 4)  # The reach stays clear of the outline.
                 found.append(place_on(bar, molecule[y - reach : y + reach, x - reach : x + reach].reshape(-1, 3)))
         return found
 
@@ -153,7 +152,7 @@ class LegendColors(unittest.TestCase):
             self.assertLess(rows[before].max(), rows[behind].min(), "boxes from above")
 
     def test_a_legend_has_the_colours_of_the_picture_and_no_others(self):
-        """Unlit, for pairs of a scheme and a rule; what stands beside the surface counts, too."""
+        """Unlit pictures show pairs of a scheme and a rule; shapes next to the surface count, too."""
         lines = ["ATOM  %5d %s ALA %s%4d    %8.3f%8.3f   0.000  1.00%6.2f          %2s" %
                  (n + 1, name, chain, n, 9.0 * n, 9.0 * row, 10.0 + 7 * n, element)
                  for row, chain in enumerate("ABC")
@@ -165,18 +164,18 @@ class LegendColors(unittest.TestCase):
             (pathlib.Path(folder) / "atoms.pdb").write_text("\n".join(lines) + "\n")
 
             def colors(*words):
-                """Of the picture and of its legend, those of many pixels."""
+                """Returns the colours of the picture and of its legend that many pixels have."""
                 result = subprocess.run([PROGRAM, "render", "atoms.pdb", "-o", "p.png", "--legend-file", "l.png", "--background", "white",
                                          "--projection", "orthographic", "--view", "z", "--size", "500x400", "--preset", "flat",
                                          "--silhouettes", "0", "--samples", "1", "--device", "cpu", "--force", *words],
                                         cwd=folder, capture_output=True, text=True, timeout=100)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 found = []
-                for name, least in (("p.png", 60), ("l.png", 150)):  # a box of the legend has 169
+                for name, least in (("p.png", 60), ("l.png", 150)):  # A box of the legend has 169 pixels.
                     pixels = numpy.rint(picture_of(pathlib.Path(folder) / name) * 255).astype(int).reshape(-1, 3)
                     each, count = numpy.unique(pixels, axis=0, return_counts=True)
                     found.append({tuple(color) for color, n in zip(each, count) if n > least and tuple(color) != (255, 255, 255)})
-                return found[0], {color for color in found[1] if max(color) > 60}  # without ink
+                return found[0], {color for color in found[1] if max(color) > 60}  # Ink is left out.
             for case in cases:
                 with self.subTest(case=case):
                     drawn, told = colors(*sum((["--color", word] for word in case), []))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Legends: their place at every size, what is drawn where, transparency, and names that do not behave.
+// Legends: their place at every size, their parts, transparency, and difficult names.
 #include "core/render/legend.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ ColorKey classes(std::size_t count) {
   return key;
 }
 
-/// A molecule that fills all of its part of the picture with half-transparent red.
+/// Returns a molecule that fills all of its part of the picture with half-transparent red.
 Framebuffer molecule(glm::ivec2 size, bool aovs) {
   Framebuffer picture;
   picture.size = size;
@@ -87,7 +87,7 @@ TEST(Legend, NeverCoversTheMoleculeAndFitsAtEverySize) {
           if (x < left.x && y < left.y) continue;
           const bool ink = picture.color[static_cast<std::size_t>(y) * size.x + x].w > 0.0f;
           drawn += ink;
-          on_rim += ink && (x == size.x - 1 || y == size.y - 1 || y == 0);  // it would go on outside
+          on_rim += ink && (x == size.x - 1 || y == size.y - 1 || y == 0);  // It may be cut off.
         }
       EXPECT_GT(drawn, 100u);
       EXPECT_EQ(on_rim, 0u) << size.x << " " << size.y;
@@ -103,7 +103,7 @@ TEST(Legend, ASizeWithoutRoomIsRefused) {
 
 TEST(Legend, TheBarRunsThroughTheMapFromBelow) {
   const Framebuffer picture = with_legend(numbers(0.0, 10.0), {800, 600}, glm::vec3(1.0f));
-  // Along some column of the strip both ends of the map and its middle are met, the low end below.
+  // Some column of the strip holds both ends of the map and its middle, the low end below.
   const auto row_of = [&](double t) {
     const glm::vec4 color(linear_from_srgb(mapped_color(ColorMap::viridis, t)), 1.0f);
     for (std::size_t n = 0; n < picture.color.size(); ++n)
@@ -135,7 +135,7 @@ TEST(Legend, BothEndsOfABarHaveTheirNumbers) {
         EXPECT_LT(place_of(low).x, bar.low.x + em);
         EXPECT_GT(place_of(high).x, bar.high.x - 8 * em);
       }
-      // None runs into another one.
+      // No text runs into another.
       const Font font(em);
       for (const LegendText& a : legend.texts())
         for (const LegendText& b : legend.texts()) {
@@ -165,7 +165,7 @@ TEST(Legend, AMapOfStepsIsABoxAClass) {
       }
     }
   }
-  // Both ends say what they mean, wherever the bar lies; where it is upright, all numbers have room.
+  // Both ends have words, wherever the bar lies; all numbers have room where it is upright.
   key.scale->ends = {"variable", "conserved"};
   for (const glm::ivec2 size : {glm::ivec2(800, 600), {600, 800}}) {
     const Legend legend(key, size);
@@ -203,7 +203,7 @@ TEST(Legend, LettersSuitTheBackground) {
     EXPECT_GT(pixels(deep, light), 200u);
     EXPECT_EQ(pixels(deep, dark), 0u);
   }
-  // Transparent: dark letters and nothing around them, clear elsewhere; premultiplied throughout.
+  // A transparent picture has dark letters, clear pixels elsewhere, and premultiplied colours.
   const Framebuffer clear = with_legend(key, {800, 600}, std::nullopt);
   EXPECT_GT(count(clear, dark), 200u);
   EXPECT_EQ(count(clear, glm::vec4(1.0f)), 0u);
@@ -258,7 +258,7 @@ TEST(Legend, RoundNumbers) {
   }
 }
 
-/// What is drawn, in pixels: low x, low y, high x, high y.
+/// Returns the drawn pixels: low x, low y, high x, high y.
 glm::ivec4 extent(const Framebuffer& picture) {
   glm::ivec4 found(picture.size, 0, 0);
   for (int n = 0; n < static_cast<int>(picture.color.size()); ++n) {

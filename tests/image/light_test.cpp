@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests shadows and shade by rays against closed forms and an oracle that knows only the balls, and that pictures are
-// the same for any blocks and vectors.
+// Shadows and shade by rays agree with closed forms and an oracle that knows only the balls; pictures are the same for
+// any blocks and vectors.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,15 +22,15 @@ namespace {
 
 using testing::Balls;
 
-/// True if a pixel of grey, with ambient 1 and one sample, is in full light.
+/// Returns whether a pixel of grey, with ambient 1 and one sample, is in full light.
 bool lit(const Framebuffer& picture, std::size_t at) {
   float brightest = 0.0f;
   for (const glm::vec4& pixel : picture.color) brightest = std::max(brightest, pixel.x);
   return picture.color[at].x > 0.95f * brightest;
 }
 
-/// Pixels whose light the oracle sees otherwise, of those that it can tell: rays that pass the solid closely, or leave
-/// along the surface, are left out.
+/// Pixels whose light differs for the oracle, among those that it can decide: rays that pass the solid closely, or
+/// leave along the surface, are left out.
 struct Comparison {
   int asked = 0, dark = 0, wrong = 0;
 };
@@ -64,7 +64,7 @@ TEST(Shadows, AreThoseOfTheOracleThatKnowsOnlyTheBalls) {
   }
 }
 
-/// Two balls so far apart that their surfaces are theirs, the lamp beside the camera: the one in front covers a disc.
+/// Two balls with separate surfaces, and the lamp next to the camera: the front one covers a disc.
 TEST(Shadows, OfABallAreADisc) {
   Subject subject({{{0.0, 0.0, 0.0}, 4.0}, {{0.0, 0.0, 20.0}, 1.5}});
   subject.camera = {.position = {0.0, 0.0, 60.0}, .target = {0.0, 0.0, 0.0}, .up = {0.0, 1.0, 0.0}};
@@ -97,7 +97,7 @@ TEST(Shadows, OfADarknessAreThatShareOfTheDarkest) {
     EXPECT_NEAR(lighter.color[at].x, 0.75f * none.color[at].x + 0.25f * dark.color[at].x, 1e-5f);
 }
 
-/// What is cut away casts none, and a cap casts what the solid behind it would.
+/// Removed parts cast no shadow, and a cap casts the shadow of the solid behind it.
 TEST(Shadows, OfACutAreThoseOfWhatIsLeft) {
   const Balls balls = testing::ubiquitin();
   Subject subject(balls);
@@ -112,7 +112,7 @@ TEST(Shadows, OfACutAreThoseOfWhatIsLeft) {
     if (!std::isfinite(picture.z[at])) continue;
     const glm::dvec3 point(picture.position[at]), normal(picture.normal[at]);
     if (std::abs(glm::dot(normal, lamp)) < 0.02) continue;
-    // Where the lamp's ray leaves what is kept.
+    // The lamp's ray leaves the kept part here.
     const double leaves = (plane.offset - glm::dot(plane.normal, point)) / glm::dot(plane.normal, lamp);
     const bool is_cap = picture.kind[at] == Framebuffer::kCap;
     bool dark = glm::dot(normal, lamp) < 0.0;
@@ -125,7 +125,7 @@ TEST(Shadows, OfACutAreThoseOfWhatIsLeft) {
   EXPECT_LE(wrong, asked / 300);
 }
 
-/// Light that would go into a slab by one cap and out of it by the other is kept away: nowhere in between is a surface.
+/// Light that would enter a slab by one cap and leave it by the other is blocked, though no surface lies in between.
 TEST(Shadows, OfASlabAreThoseOfItsCaps) {
   Subject floor({{{-18.0, 0.0, -18.0}, 4.0}});
   const Surface ball = compute_surface_cpu(Balls{{{0.0, 0.0, 0.0}, 2.5}}, 1.4);
@@ -154,7 +154,7 @@ TEST(Shadows, OfASlabAreThoseOfItsCaps) {
   EXPECT_EQ(wrong, 0);
 }
 
-/// A stick beside a ball: dark is what sees the lamp within its radius of the axis.
+/// A stick is next to a ball: points that see the lamp within the stick's radius of its axis are dark.
 TEST(Shadows, OfAStickAreAStrip) {
   Subject subject({{{0.0, 0.0, 0.0}, 4.0}});
   subject.camera = {.position = {0.0, 0.0, 60.0}, .target = {0.0, 0.0, 0.0}, .up = {0.0, 1.0, 0.0}};
@@ -180,7 +180,7 @@ TEST(Shadows, OfAStickAreAStrip) {
   EXPECT_EQ(wrong, 0);
 }
 
-/// Copies are in memory once; rays turn to them. Some pixels at the edges of shadows may differ by rounding.
+/// Copies are in memory once; rays turn to them. A few pixels at the edges of shadows may differ by rounding.
 TEST(Shadows, OfCopiesAreThoseOfOneSurface) {
   SurfaceObject object;
   object.surface = compute_surface_cpu(testing::c60(), 0.5);
@@ -208,7 +208,7 @@ TEST(Shadows, OfCopiesAreThoseOfOneSurface) {
   EXPECT_LE(different, 5);
 }
 
-/// A ball that is seen through lets the light pass.
+/// A transparent ball lets the light pass.
 TEST(Shadows, AreNotCastByWhatIsSeenThrough) {
   Subject subject({{{0.0, 0.0, 0.0}, 4.0}, {{0.0, 0.0, 20.0}, 1.5}});
   subject.camera = {.position = {0.0, 0.0, 60.0}, .target = {0.0, 0.0, 0.0}, .up = {0.0, 1.0, 0.0}};
@@ -241,7 +241,7 @@ TEST(TracedLight, IsTheSameForAnyBlocksAndVectors) {
         << lanes;
 }
 
-/// Points spread over a surface by the pixels of a picture, at most so many.
+/// Points spread over a surface by the pixels of a picture, up to a number.
 struct Sampled {
   std::vector<glm::dvec3> positions, normals;
 };
@@ -260,7 +260,7 @@ Sampled sampled(const Subject& subject, std::size_t count) {
   return points;
 }
 
-/// Directions drawn by lot: independent of the even ones.
+/// Returns random directions, which are independent of the even ones.
 std::vector<glm::vec3> drawn_directions(std::size_t count) {
   std::mt19937_64 lots(2026);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -300,7 +300,7 @@ TEST(SkyVisibility, IsThatOfTenThousandRaysAtAThousandPoints) {
   EXPECT_LT(largest, 0.05);
 }
 
-/// Ray by ray, against the balls.
+/// Rays are compared one by one with the balls.
 TEST(SkyVisibility, HasTheRaysOfTheOracle) {
   const Balls balls = testing::ubiquitin();
   const Subject subject(balls);
@@ -317,7 +317,7 @@ TEST(SkyVisibility, HasTheRaysOfTheOracle) {
       if (!oracle.trace(points.positions[n] + 2e-3 * points.normals[n], glm::dvec3(direction), 100.0, 1e-6))
         seen += cosine;
     }
-    EXPECT_NEAR(ours[n], seen / all, 0.03) << n;  // a ray or two may pass within rounding
+    EXPECT_NEAR(ours[n], seen / all, 0.03) << n;  // A ray or two may pass within rounding.
   }
 }
 

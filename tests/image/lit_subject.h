@@ -14,7 +14,7 @@ namespace meniscus {
 
 inline constexpr glm::vec3 kGrey(0.8f);
 
-/// A surface in grey, seen through the centres of pixels, under a sharp lamp that is all of its light.
+/// A grey surface seen through the centres of pixels, under a sharp lamp that gives all of its light.
 struct Subject {
   Surface surface;
   Coloring coloring;
@@ -44,7 +44,7 @@ struct Subject {
   }
 };
 
-/// True if two pictures have the same colours to the last bit.
+/// Returns whether two pictures have the same colours to the last bit.
 inline bool same_bits(const Framebuffer& a, const Framebuffer& b) {
   return a.color.size() == b.color.size() &&
          std::memcmp(a.color.data(), b.color.data(), a.color.size() * sizeof a.color[0]) == 0;

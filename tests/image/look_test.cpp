@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light, shade, lines and depth cueing do what they say, the same in blocks of any size and every time.
+// Light, shade, lines and depth cueing have their stated effects, equal in blocks of any size and every time.
 #include "core/render/look.h"
 
 #include <algorithm>
@@ -78,11 +78,11 @@ TEST_F(Looks, BlocksAndRepetitionDoNotShow) {
 TEST_F(Looks, ShadeDarkensCleftsAndNothingElse) {
   Look look;
   look.ambient_occlusion = 1.0f;
-  // A lone ball has nothing around it: at most some rounding close to its rim.
+  // Nothing is around a lone ball: at most some rounding close to its rim.
   const Framebuffer bare = render(kOne, kFront, {}), shaded = render(kOne, kFront, look);
   for (std::size_t at = 0; at < bare.color.size(); ++at)
     EXPECT_NEAR(brightness(shaded.color[at]), brightness(bare.color[at]), 0.03f * brightness(bare.color[at]) + 0.002f);
-  // Behind a ring of atoms the one in the middle loses light, the more so the farther back it is.
+  // The atom in the middle of a ring loses light, the more so the farther back it is.
   float before = 1.02f;
   for (const double back : {1.0, 2.0, 3.0}) {
     testing::Balls well = testing::ring(10, 3.0);
@@ -107,7 +107,7 @@ TEST_F(Looks, ShadeDarkensCleftsAndNothingElse) {
 }
 
 TEST_F(Looks, ShadeLeavesNoPattern) {
-  // On a wall of atoms seen straight on, shade repeats with the wall, and the texels of the maps do not show.
+  // Shade on a wall of atoms, seen straight on, repeats with the wall, and the texels of the maps do not show.
   testing::Balls wall = testing::lattice(25, 23, 1, 4.0);
   Look look;
   look.ambient_occlusion = 1.0f;
@@ -124,7 +124,7 @@ TEST_F(Looks, ShadeLeavesNoPattern) {
     }
 }
 
-/// Widths in pixels of black along the row `y`: pixels that ink covers, by how much.
+/// Returns the width of black along row `y` in pixels, by their coverage with ink.
 float ink_along(const Framebuffer& bare, const Framebuffer& inked, int y, int begin, int end) {
   float sum = 0.0f;
   for (int x = begin; x < end; ++x) {
@@ -143,14 +143,14 @@ TEST_F(Looks, LinesAreAsWideAsAsked) {
     EXPECT_NEAR(ink_along(bare, inked, 75, 0, 100), width, 0.05f);  // the left rim, and nothing inside
     EXPECT_NEAR(ink_along(bare, inked, 75, 60, 140), 0.0f, 0.01f);
     EXPECT_EQ(inked.color[0].w, 0.0f);
-    // One ball in front of another: a line between them, none where they touch.
+    // One ball is in front of another: a line is between them, and none where they touch.
     const testing::Balls two{{{0, 0, 0}, 2.0}, {{1.0, 0, -20}, 2.0}};
     EXPECT_GT(ink_along(render(two, kFront, {}), render(two, kFront, look), 75, 101, 160), 0.8f * width);
   }
 }
 
 TEST_F(Looks, LinesOfEachKindHaveTheirOwnWidth) {
-  // Two parts that touch, and a ball far behind both.
+  // Two parts touch, and a ball is far behind both.
   const testing::Balls three{{{-1, 0, 0}, 2.0}, {{1, 0, 0}, 2.0}, {{0, 1.6, -30}, 2.0}};
   const std::vector<std::uint32_t> part{4, 2, 4};
   const Framebuffer bare = render(three, kFront, {});
@@ -168,7 +168,7 @@ TEST_F(Looks, LinesOfEachKindHaveTheirOwnWidth) {
   inner.inner_lines = 3.0f;
   EXPECT_NEAR(ink(inner, 75, 0, 60), 0.0f, 0.01f);
   EXPECT_NEAR(ink(inner, 75, 80, 120), 0.0f, 0.01f);
-  float behind = 0.0f, none = 0.0f;  // along the middle column, where the far ball is out above
+  float behind = 0.0f, none = 0.0f;  // The middle column is measured, where the far ball reaches out above.
   const Framebuffer lined = render(three, kFront, inner, 1, 2048, part),
                     other = render(three, kFront, look, 1, 2048, part);
   for (int y = 20; y < 60; ++y) {
@@ -181,7 +181,7 @@ TEST_F(Looks, LinesOfEachKindHaveTheirOwnWidth) {
   EXPECT_LT(none, 0.6f * behind);
 }
 
-/// Black without light, so that the red of lines around patches is the share that they cover.
+/// Returns a look without light, so that the red of lines around patches is the share that they cover.
 Look patch_lines(float width) {
   Look look;
   look.material = {.ambient = 1.0f, .roughness = 0.0f, .specular = 0.0f, .shininess = 40.0f};
@@ -278,7 +278,7 @@ TEST_F(Looks, PatchesHaveNoLinesWhereOneIsInFrontOfAnother) {
 }
 
 TEST_F(Looks, LinesFromAfarAreOfWhatIsLarge) {
-  // A ball 3 Å in front of another: a line between them where they fill the picture, none where 300 Å do.
+  // A ball is 3 Å in front of another: a line is between them where they fill the picture, and none where 300 Å do.
   const testing::Balls two{{{0, 0, 0}, 2.0}, {{1.0, 0, -3}, 2.0}};
   Look look;
   look.outer_lines = 0.0f;
@@ -317,7 +317,7 @@ TEST_F(Looks, WhiteLampsShowTheColourGivenWhereItFacesThem) {
     look.light_direction = light;
     const glm::vec3 to = glm::normalize(light);
     const Framebuffer picture = render(kOne, kFront, look);
-    // The ball of 2 Å is in the middle; 0.04 Å a pixel.
+    // The ball of 2 Å is in the middle, at 0.04 Å a pixel.
     const auto x = static_cast<int>(99.5f + 50.0f * to.x), y = static_cast<int>(74.5f - 50.0f * to.y);
     const glm::vec4& pixel = picture.color[static_cast<std::size_t>(y) * 200 + x];
     const float expected = linear_from_srgb(kGray.x);
@@ -327,7 +327,7 @@ TEST_F(Looks, WhiteLampsShowTheColourGivenWhereItFacesThem) {
 }
 
 TEST_F(Looks, HighlightsDoNotShineInTheShade) {
-  // What they add at the bottom of a well that faces camera and lamp, and to a ball that is alone.
+  // Highlights are measured at the bottom of a well that faces camera and lamp, and on a lone ball.
   testing::Balls well = testing::ring(10, 3.0);
   for (const Ball& ball : testing::ring(10, 3.0)) well.push_back({ball.center - glm::dvec3(0, 0, 2.5), ball.radius});
   well.push_back({{0, 0, -5}, 1.7});
@@ -386,14 +386,14 @@ TEST_F(Looks, DepthCuesThatKeepAlphaEndInTheBackground) {
     const glm::vec4& pixel = picture.color[at];
     EXPECT_EQ(pixel.w, fading.color[at].w > 0.0f ? 1.0f : 0.0f);
     if (pixel.w == 0.0f) continue;
-    // Over its background it is what the other is.
+    // Over its background the picture equals the other one.
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(pixel[c], fading.color[at][c] + (1.0f - fading.color[at].w) * air[c], 1e-5f);
   }
 }
 
 TEST_F(Looks, DepthIsThatAlongTheViewAxis) {
-  // A wide perspective: rays to the corner are longer than deep. Both balls begin and end at the same depths.
+  // In a wide perspective rays to the corner are longer than deep. Both balls begin and end at the same depths.
   const testing::Balls two{{{0, 0, 0}, 1.0}, {{9, 0, 0}, 1.0}};
   const Camera camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, Projection::perspective, 75.0, 1.0};
   Look look;
@@ -440,7 +440,7 @@ TEST_F(Looks, PresentedPicturesAreThePictureOverItsBackground) {
   }
 }
 
-// What covers already what lies in it shall not fade it, too.
+// A surface that covers its own inside shall not fade it, too.
 TEST(LookOfASeenThroughSurface, HasNoDepthCueUnlessItIsAskedFor) {
   constexpr glm::vec3 kPaper(1.0f);
   const auto look = [&](std::initializer_list<const char*> opacities, const LookRequest& request = {}) {

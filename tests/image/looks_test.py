@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A look by one word is the picture of its options written out, through each door, and the user's options change it."""
+"""A look by one word gives the picture of its options through each interface, and the user's options change it."""
 
 import json
 import pathlib
@@ -147,7 +147,7 @@ class Looks(unittest.TestCase):
                 shown = replies[3 * n + 3]["words"]
                 self.run_program(*shown[1:], "-o", "v.png", "--force", "--device", "cpu")
                 if word == "pocket":
-                    continue  # its camera is written in other digits
+                    continue  # Its camera is written in other digits.
                 camera = shown[shown.index("--camera") + 1]
                 self.assert_same(pixels_of(self.folder / "v.png"),
                                  self.render("--preset", word, "--camera", camera, "--background", "white"))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests shade and shadows from maps of light against closed forms and rays, and that pictures are the same for any
-// blocks, vectors and threads.
+// Shade and shadows from maps of light agree with closed forms and rays; pictures are the same for any blocks, vectors
+// and threads.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,13 +17,13 @@
 namespace meniscus {
 namespace {
 
-/// Returns for each pixel the share of the light that shade from maps leaves; nothing is 1.
+/// Returns for each pixel the share of the light that shade from maps leaves; empty pixels have 1.
 std::vector<float> light_left(Subject& subject, float sky, float shadows) {
   Look& look = subject.settings.look;
   look.shadows = look.ambient_occlusion = 0.0f;
   const Framebuffer bare = subject.picture();
   look.ambient_occlusion = sky;
-  look.ambient_occlusion_radius = 1000.0f;  // of rays
+  look.ambient_occlusion_radius = 1000.0f;  // radius of rays
   look.shadows = shadows;
   look.shadow_softness = 12.0f;
   const Framebuffer shaded = subject.picture();
@@ -38,9 +38,9 @@ TEST(MappedLight, IsWholeOnALoneBall) {
   for (const float left : light_left(subject, 1.0f, 0.0f)) EXPECT_GT(left, 0.995f);
 }
 
-// The balls that stand for the back of a thin plate do not stand out of its front.
+// Balls that stand for the back of a thin plate do not reach through its front.
 TEST(MappedLight, IsWholeOnAThinPlate) {
-  Subject subject({{{0.0, 0.0, -60.0}, 1.0}});  // far away, for the atom of the plate
+  Subject subject({{{0.0, 0.0, -60.0}, 1.0}});  // This ball is far away, for the atom of the plate.
   Shapes shapes;
   const std::vector<glm::dvec3> square{{-3.0, -3.0, 0.0}, {3.0, -3.0, 0.0}, {3.0, 3.0, 0.0}, {-3.0, 3.0, 0.0}};
   add_plate(shapes.mesh, square, {0.0, 0.0, 1.0}, 0.15, 0);
@@ -61,7 +61,7 @@ TEST(MappedLight, IsWholeOnAThinPlate) {
 // while all of it is above the horizon (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-38).
 TEST(MappedLight, BesideABallIsThatOfItsViewFactor) {
   const Ball large{{0.0, 0.0, 0.0}, 10.0}, small{{5.0, 0.0, 16.0}, 3.0};
-  const double kLift = 0.4 * static_cast<double>(kernel::kLightLift);  // Å, from where light is looked for
+  const double kLift = 0.4 * static_cast<double>(kernel::kLightLift);  // Å above the surface
   Subject subject({large, small});
   subject.camera = {.position = {-40.0, 0.0, 40.0}, .target = {0.0, 0.0, 8.0}, .up = {0.0, 1.0, 0.0}};
   subject.camera.projection = Projection::orthographic;
@@ -175,7 +175,7 @@ float change_in_a_turn(float sky, float shadows) {
     const double x = glm::dot(way, basis.right) / pixel + 239.5, y = 179.5 - glm::dot(way, basis.up) / pixel;
     if (x < 0.0 || y < 0.0 || x >= 479.0 || y >= 359.0) continue;
     float there = 0.0f;
-    bool same = true;  // surface, without an edge between the pixels
+    bool same = true;  // true on the surface, without an edge between the pixels
     for (int n = 0; n < 4; ++n) {
       const std::size_t other = (static_cast<std::size_t>(y) + n / 2) * 480 + static_cast<std::size_t>(x) + n % 2;
       const double right = x - std::floor(x), down = y - std::floor(y);
@@ -199,14 +199,14 @@ TEST(MappedLight, StaysAtItsPointWhileTheCameraTurns) {
   EXPECT_LT(lamp, 0.026f);
 }
 
-// A ball that dissolves over another one lets its light go step by step, and does not darken it where it is hardly
-// visible.
+// A ball that dissolves in front of another one lets its light through step by step, and does not darken it where it is
+// hardly visible.
 TEST(MappedLight, OfWhatDissolvesChangesGradually) {
   Subject subject({{{0.0, 0.0, 0.0}, 10.0}, {{0.0, 0.0, 17.0}, 5.0}});
   subject.camera = {.position = {-40.0, 0.0, 40.0}, .target = {0.0, 0.0, 6.0}, .up = {0.0, 1.0, 0.0}};
   subject.camera.projection = Projection::orthographic;
   subject.camera.height = 24.0;
-  subject.settings.look.light_direction = {0.7f, 0.0f, 0.7f};  // the dissolving ball is between the lamp and the other
+  subject.settings.look.light_direction = {0.7f, 0.0f, 0.7f};  // The lamp is behind the dissolving ball.
   for (const float shadows : {0.0f, 1.0f}) {
     constexpr int kSteps = 20;
     std::vector<double> mean;

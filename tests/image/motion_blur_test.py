@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A blurred picture is the mean of pictures of its moments; what rests stays sharp."""
+"""A blurred picture is the mean of pictures of its moments; resting parts stay sharp."""
 
 import json
 import pathlib
@@ -16,7 +16,7 @@ LOOK = ["--size", "96x72", "--samples", "1", "--device", "cpu", "--preset", "cla
 
 
 def models(count):
-    """One atom rests, one goes along x."""
+    """Returns models in which one atom rests and one goes along x."""
     lines = []
     for model in range(count):
         lines.append("MODEL     %4d" % (model + 1))
@@ -63,7 +63,7 @@ class MotionBlur(unittest.TestCase):
         partly = lambda picture: int(((picture[:36, :, 3] > 0.01) & (picture[:36, :, 3] < 0.99)).sum())
         self.assertEqual(partly(sharp), 0)
         self.assertGreater(partly(blur), 100)
-        # All of it is there: the mean of alpha is that of the sharp ball.
+        # The whole ball is there: the mean of alpha equals the sharp ball's.
         self.assertAlmostEqual(blur[..., 3].sum() / sharp[..., 3].sum(), 1.0, delta=0.02)
 
     def test_a_moving_camera_blurs_too(self):

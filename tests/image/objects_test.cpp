@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of several objects, of copies and of parts are those of the whole.
+// Pictures of several objects, of copies and of parts equal pictures of the whole.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,7 +53,7 @@ class Pictures : public ::testing::Test {
   GlRenderer renderer_;
 };
 
-// Pixels whose depth differs: silhouettes may, by the rounding of one ray.
+// Counts pixels whose depth differs: silhouettes may, by the rounding of one ray.
 std::size_t different_pixels(const std::vector<float>& a, const std::vector<float>& b) {
   std::size_t count = 0;
   for (std::size_t n = 0; n < a.size(); ++n) {
@@ -88,8 +88,8 @@ TEST_F(Pictures, MergedObjectsAndCopiesLookLikeOneComputation) {
   EXPECT_LE(other_atom, 5u);
 }
 
-// The nearest point over the pictures of all components by themselves is that of the whole picture: no patch of a part
-// shows what was left behind, none lacks anything.
+// The nearest points in pictures of single components give the whole picture: no patch of a part shows other parts'
+// points, none lacks anything.
 TEST_F(Pictures, PartsTogetherLookLikeTheWhole) {
   std::vector<testing::NamedBalls> molecules{{"ubiquitin", testing::ubiquitin()},
                                              {"c60", testing::c60()},
@@ -114,7 +114,7 @@ TEST_F(Pictures, PartsTogetherLookLikeTheWhole) {
       std::size_t strange = 0;
       for (std::size_t n = 0; n < nearest.size(); ++n) {
         nearest[n] = std::min(nearest[n], picture.z[n]);
-        // Where the whole picture shows this component, so does the part's.
+        // The part's picture shows this component wherever the whole picture does.
         strange += expected.component[n] == c && std::abs(picture.z[n] - expected.z[n]) > kDepth;
       }
       EXPECT_LE(strange, 3u) << "component " << c;

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pages (.svg, .pdf) show what the PNG file of the same command shows, at the size that was asked for, drawn by librsvg
-and by poppler."""
+"""Pages (.svg, .pdf) show the PNG file of the same command at the requested size, drawn by librsvg and by poppler."""
 
 import pathlib
 import re
@@ -54,7 +53,7 @@ class Pages(unittest.TestCase):
         return self.folder / name
 
     def drawn(self, page):
-        """The page at the resolution of the picture."""
+        """Draws the page at the resolution of the picture."""
         tool = {".svg": "rsvg-convert", ".pdf": "pdftoppm"}[page.suffix]
         if not shutil.which(tool):
             self.skipTest(tool + " is not installed")
@@ -72,7 +71,7 @@ class Pages(unittest.TestCase):
         self.assertLessEqual(abs(numpy.array(page.shape) - picture.shape).max(), 1)
         height, width = numpy.minimum(page.shape, picture.shape)[:2]
         off = abs(page[:height, :width] - picture[:height, :width]).max(axis=2)
-        # Edges of letters are smoothed in other ways (in sRGB); what was missing or elsewhere would be more than that.
+        # Edges of letters are smoothed in other ways (in sRGB); missing or misplaced letters would differ more.
         self.assertLess(off.mean(), 0.01)
         self.assertLess((off > 0.5).mean(), 0.003)
 
@@ -97,7 +96,7 @@ class Pages(unittest.TestCase):
                          self.render("more.pdf", "--no-provenance").read_bytes(), "equal pictures are equal files")
 
     def groups(self, path):
-        """The texts of each group of an SVG file, by the group's name in their order."""
+        """Returns the texts of each group of an SVG file, by the group's name in their order."""
         name = "{http://www.w3.org/2000/svg}"
         groups = xml.etree.ElementTree.parse(path).getroot().findall(name + "g")
         return {group.get("id"): [text.text for text in group.findall(name + "text")] for group in groups}
@@ -122,7 +121,7 @@ class Pages(unittest.TestCase):
         return subprocess.run(words, check=True, cwd=self.folder, capture_output=True, text=True)
 
     def fonts(self, path):
-        """Name, type and whether it is embedded and has characters, of each font of a PDF file."""
+        """Returns name, type and whether it is embedded and has characters, for each font of a PDF file."""
         lines = self.tool("pdffonts", path.name).stdout.splitlines()[2:]
         return [(line[:36].strip(), line[37:54].strip(), *line[55:].split()[-5::2]) for line in lines]
 
@@ -180,7 +179,7 @@ class Pages(unittest.TestCase):
             self.assertIn("auto is for `meniscus render`", done.stderr, words)
 
     def test_letters_and_bars_keep_two_millimetres(self):
-        """Small letters keep them in pictures with a size on paper, and are nearer to the border in others."""
+        """Small letters keep that distance in pictures with a size on paper, and are nearer to the border in others."""
         written = ["--letter-color", "#00ff00", "--letter-size", "6", "--panel-size", "6", "--panel", "a", "--scale-bar", "5", "--title", "title", "--label", "resid 1=first",
                    "--projection", "orthographic", "--color", "element", "--background", "white"]
         for paper in ([], ["--width", "60mm", "--dpi", "254"]):

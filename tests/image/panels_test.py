@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A page of panels has the pixels that each scene gives alone at its size, and what panels share is true of all."""
+"""A page of panels has the pixels that each scene gives alone at its size; shared legends and scales fit all panels."""
 
 import json
 import math
@@ -109,7 +109,7 @@ class Panels(unittest.TestCase):
             swatches = [numpy.argwhere((page == numpy.array(color)).all(axis=2)) for color in ((233, 183, 113), (148, 203, 251))]
             right = [place[place[:, 1] > 420] for place in swatches]
             self.assertTrue(all(len(place) > 20 for place in right))
-        # Legend on one panel alone, colours of another kind on the other: it may not stand beside both.
+        # The legend is on one panel, and the other has colours of another kind: the legend may not stand next to both.
         self.render("b.pdb", "b.png", "--color", "bfactor", "--size", "240x180", "--background", "white")
         self.render("a.pdb", "a.png", "--color", "chain", "--legend", "--size", "240x180", "--background", "white")
         page = self.page("a.png", "b.png", "--gap", "0", "--size", "480x180")
@@ -136,7 +136,7 @@ class Panels(unittest.TestCase):
         self.assertIn("b.png is superposed on a.png by 24 atoms with an RMSD of 0.00", said)
         page = pixels_of(self.folder / "page.png")
         self.assertLess((abs(page[:, :160] - page[:, 160:]).max(axis=2) > 8).mean(), 0.01)
-        # The camera shows what is in either panel: nothing touches the border.
+        # The camera shows the content of both panels: nothing touches the border.
         for edge in (apart[0], apart[-1], apart[:, 0], apart[:, 159], apart[:, 160], apart[:, -1]):
             self.assertEqual(edge[..., 3].max(), 0)
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every pixel of the ray caster against exact depths: closed forms, the double twin, and the sphere-tracing oracle.
+// Every pixel of the ray caster has an exact depth: by closed forms, the double twin, or the sphere-tracing oracle.
 #include "core/scene/renderers.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 
 using testing::Balls;
 
-/// Depth along a ray; nothing where it misses.
+/// Returns the depth along a ray, or nothing where the ray misses.
 using Depth = std::function<std::optional<double>(const Ray&)>;
 
 constexpr double kDepthTolerance = 1e-3;  // Å
@@ -33,7 +33,7 @@ constexpr double kDisplacement = 2e-5;    // Å: at a silhouette the depth may b
 
 struct Agreement {
   int hit = 0;        ///< pixels that show the surface
-  int displaced = 0;  ///< right only for a ray aside: silhouettes
+  int displaced = 0;  ///< pixels that are right only for a ray aside: silhouettes
   int wrong = 0;
   std::string first_wrong;
 };
@@ -80,7 +80,7 @@ Coloring gray(const Surface& surface) {
   return coloring;
 }
 
-/// By GL and by the CPU.
+/// Tests run by GL and by the CPU.
 class RayCasting : public ::testing::TestWithParam<const char*> {
  protected:
   Framebuffer cast(const Surface& surface, const Camera& camera, glm::ivec2 size) {
@@ -90,7 +90,7 @@ class RayCasting : public ::testing::TestWithParam<const char*> {
     return renderer_->render(whole_surface(surface, gray(surface)), camera, settings);
   }
 
-  /// Both projections against the oracle and, where asked, the twin.
+  /// Checks both projections against the oracle and, on request, the twin.
   void expect_exact(const Balls& balls, double probe_radius, const std::string& name, glm::ivec2 size, bool twin) {
     const Surface surface = compute_surface_cpu(balls, probe_radius);
     const testing::SphereTracer tracer(balls, probe_radius);
@@ -150,7 +150,7 @@ TEST_P(RayCasting, TwoAtomsFreeAndSpindle) {
 }
 
 TEST_P(RayCasting, RaysThatRunAlongSeamsFindNoHole) {
-  // A column of pixels lies on the plane of a contact circle, seen edge on: every rounding may go either way.
+  // A column of pixels lies on the plane of a contact circle, seen edge on: rounding may go either way.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(2.0, 5.4);
   for (int i = 0; i < 60; ++i) {
@@ -195,7 +195,7 @@ TEST_P(RayCasting, Proteins) {
 }
 
 TEST_P(RayCasting, ManyAtomsInAFewTiles) {
-  // Lists of 77,000 patches a tile: software GL cuts loops short after 65,535 steps, and nothing of that may show.
+  // Lists have 77,000 patches a tile: software GL cuts loops short after 65,535 steps, which must not show.
   Balls many;
   for (int n = 0; n < 4; ++n) {
     const Balls copy = testing::translated(testing::enterotoxin(), {n % 2 * 90.0, 0.0, n / 2 * 90.0});
@@ -221,7 +221,7 @@ TEST_P(RayCasting, AnyZoom) {
     Camera camera = frame_camera(surface.atoms, 1.0);
     camera.vertical_fov /= zoom;
     expect_agreement(cast(surface, camera, {64, 64}), camera, depth, "zoom");
-    Camera close = camera;  // the same by walking up to the surface, and a little inside of it
+    Camera close = camera;  // The camera zooms by walking up to the surface, and a little inside of it.
     const auto hit = twin.trace(pixel_ray(close, {1, 1}, {0.5, 0.5}));
     ASSERT_TRUE(hit);
     close.vertical_fov = 60.0;
@@ -250,11 +250,11 @@ TEST_P(RayCasting, AovsDescribeThePointOfThePixelCentre) {
     }
     EXPECT_EQ(picture.color[at].w, 1.0f);
     const auto hit = twin.trace(ray);
-    if (!hit || std::abs(hit->t - picture.z[at]) > kDepthTolerance) continue;  // silhouettes: the tests above
+    if (!hit || std::abs(hit->t - picture.z[at]) > kDepthTolerance) continue;  // Earlier tests cover silhouettes.
     ++hit_count;
     EXPECT_LT(glm::length(glm::dvec3(picture.position[at]) - (ray.origin + ray.direction * hit->t)), 2e-3);
-    EXPECT_EQ(picture.component[at], 0u);  // nothing else is visible from outside
-    // Within slack of a border either patch may win; their normals agree there.
+    EXPECT_EQ(picture.component[at], 0u);  // Only the outer component is visible from outside.
+    // Either patch may win within slack of a border; their normals agree there.
     if (static_cast<std::uint32_t>(hit->kind) != picture.kind[at])
       ++other_patch;
     else if (hit->atom != picture.atom[at])
@@ -283,7 +283,7 @@ TEST_P(RayCasting, RaysGoOnThroughHiddenAtoms) {
     });
     EXPECT_EQ(agreement.wrong, 0) << agreement.first_wrong;
     EXPECT_GT(agreement.hit, 3000);
-    // Every cut through a patch is a silhouette: more of them than of whole molecules.
+    // Every cut through a patch is a silhouette, so that there are more of them than in whole molecules.
     EXPECT_LE(agreement.displaced, agreement.hit / 100);
     int inside = 0;
     for (int at = 0; at < 128 * 96; ++at) {
@@ -291,7 +291,7 @@ TEST_P(RayCasting, RaysGoOnThroughHiddenAtoms) {
       EXPECT_TRUE(coloring.shows(picture.atom[at])) << at;
       const Ray ray = pixel_ray(camera, picture.size, {at % 128 + 0.5, at / 128 + 0.5});
       inside += glm::dot(glm::dvec3(picture.normal[at]), ray.direction) > 0.1;
-      // Seen from behind it is lit like a front: nothing is black.
+      // The back of the surface is lit like its front: nothing is black.
       EXPECT_GT(picture.color[at].x, 0.01f);
     }
     EXPECT_GT(inside, 300);
@@ -317,14 +317,14 @@ TEST_P(RayCasting, BlocksAndSamplesDoNotChangeThePicture) {
   EXPECT_EQ(whole.color, blocks.color);
   settings.samples = 1;
   const Framebuffer single = renderer_->render(whole_surface(surface, gray(surface)), camera, settings);
-  EXPECT_EQ(whole.z, single.z);  // always the pixel's centre
+  EXPECT_EQ(whole.z, single.z);  // Depth is always taken at the pixel's centre.
   EXPECT_NE(whole.color, single.color);
 }
 
 TEST_P(RayCasting, ACavityIsAComponentOfItsOwn) {
   const Surface surface = compute_surface_cpu(testing::c60(), 0.5);
   ASSERT_EQ(surface.components.size(), 2u);
-  // From the middle of the cage only the cavity is visible; from outside only the outer component.
+  // Only the cavity is visible from the middle of the cage, only the outer component from outside.
   glm::dvec3 middle(0.0);
   for (const Ball& ball : surface.atoms) middle += ball.center / 60.0;
   Camera camera{middle, middle + glm::dvec3(0.3, 0.2, 1.0), {0, 1, 0}, Projection::perspective, 60.0, 1.0};

@@ -127,7 +127,7 @@ TwinHit RayCasterTwin::describe(const Candidate& candidate, const Ray& ray, doub
     result.atom = surface_.convex[candidate.patch].atom;
     return result;
   }
-  // The touched atom whose direction from the probe is nearest to the point's, by the definition in coloring.h.
+  // The colour comes from the touched atom whose direction from the probe is nearest to the point's (coloring.h).
   glm::dvec3 probe = candidate.center;
   std::vector<std::uint32_t> touched;
   if (candidate.kind == PatchKind::concave) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A second ray caster: on the CPU, in double, by brute force over the surface's tables, without tiles or packing.
+// A second ray caster: in double on the CPU, by brute force over the surface's tables, without tiles or packing.
 #pragma once
 
 #include <optional>
@@ -16,16 +16,16 @@ struct TwinHit {
   glm::dvec3 normal{0.0};
   PatchKind kind = PatchKind::convex;
   std::uint32_t patch = 0;
-  std::uint32_t atom = 0;  ///< whose colour the point takes
+  std::uint32_t atom = 0;  ///< The point takes this atom's colour.
 };
 
-/// Looks at a surface that must outlive it.
+/// Keeps a reference to a surface that must outlive it.
 class RayCasterTwin {
  public:
-  /// coloring: says which atoms are hidden.
+  /// coloring: tells which atoms are hidden.
   explicit RayCasterTwin(const Surface& surface, const Coloring& coloring = {});
 
-  /// Nearest point of any patch on the ray.
+  /// Returns the nearest point of any patch on the ray.
   std::optional<TwinHit> trace(const Ray& ray) const;
 
  private:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run that was interrupted goes on: pictures of the same scene and files stay, and no others are taken for them."""
+"""An interrupted run goes on: it keeps pictures of the same scene and files, and no others."""
 
 import os
 import pathlib

@@ -40,10 +40,10 @@ def files_of(paths):
 
 
 def ligand_of(meniscus, file):
-    """The expression of one residue; None: the file has none beside a polymer."""
+    """Returns the expression of one residue, or None if the file has none next to a polymer."""
     if run(meniscus, "info", file, "--select", "polymer").returncode != 0:
         return None
-    # Residues have a row each; the areas of a residue by itself tell how large it is.
+    # Each residue has a row; the areas of single residues give their sizes.
     table = run(meniscus, "surface", file, "-q", "--select", "organic", "--surface", "vdw", "--csv", "-")
     atoms = {}
     for row in csv.DictReader(table.stdout.splitlines() if table.returncode == 0 else []):
@@ -56,7 +56,7 @@ def ligand_of(meniscus, file):
 
 
 def atoms_seen(path):
-    """Per pixel the place of its atom in the file, -1 where there is none."""
+    """Returns the place of each pixel's atom in the file, -1 where there is none."""
     picture = oiio.ImageInput.open(str(path))
     names = list(picture.spec().channelnames)
     pixels = picture.read_image("float")
@@ -66,7 +66,7 @@ def atoms_seen(path):
 
 
 def share_seen(meniscus, folder, file, ligand, drawn, size, more):
-    """Of the pixels that the ligand has when it is drawn alone by the same camera; and the notes of the program."""
+    """Returns the visible share of the ligand's pixels under the same camera, and the program's notes."""
     camera, together, alone = folder / "camera.json", folder / "together.exr", folder / "alone.exr"
     usual = ["--force", "--aovs", "--samples", "1", "--preset", "flat", "--size", f"{size}x{size}", "--select", "polymer", drawn, ligand]
     made = run(meniscus, "render", file, "-o", together, *usual, "--zoom-to", ligand, "--save-camera", camera, *more)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A film of scenes begins and ends with their pictures; on the way numbers are between theirs, and the rest is blended."""
+"""A film of scenes begins and ends with their pictures; in between numbers are intermediate and the rest is blended."""
 
 import json
 import pathlib
@@ -53,7 +53,7 @@ class Storyboards(unittest.TestCase):
         return done.stderr
 
     def scene(self, name, *words, molecule="a.pdb"):
-        """The picture of a scene, which it writes, too."""
+        """Writes a scene and returns its picture."""
         output = name + "_##.png" if "--frames" in words else name + ".png"
         self.run_program("render", molecule, "-o", output, "--save-scene", name + ".json", "--background", "white", *SIZE, *words)
         return pixels_of(self.folder / output) if "##" not in output else None

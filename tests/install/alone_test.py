@@ -12,7 +12,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PARTS = {"GEMMI": "gemmi (with PEGTL)", "ZLIB": "zlib", "GL": "epoxy", "JSON": "nlohmann_json", "DEFLATE": "libdeflate"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]', re.M)
-#: What builds with a part compile: up to #else or #endif.
+#: Matches code that is built with a part only, up to #else or #endif.
 PART = re.compile(r"^#ifdef (MENISCUS_\w+)$.*?^#(?:else|endif)$", re.M | re.S)
 FREE = {"glm", "fmt", "tbb"}
 SYSTEM = {"cpuid.h", "stddef.h", "stdint.h", "sched.h", "fcntl.h", "unistd.h", "dlfcn.h", "sys/mman.h", "sys/resource.h", "sys/stat.h", "sys/types.h", "sys/sysinfo.h", "emmintrin.h", "immintrin.h",

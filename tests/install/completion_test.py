@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The installed completion scripts: shells read them, and they propose what the help lists."""
+"""The installed completion scripts: shells read them, and they propose the words of the help."""
 
 import shutil
 import unittest
@@ -9,7 +9,7 @@ from installation import Installation
 PLACES = {"bash": "bash-completion/completions/meniscus", "zsh": "zsh/vendor-completions/_meniscus",
           "fish": "fish/vendor_completions.d/meniscus.fish"}
 
-# Completes a line as the shell would, without its files, and prints what is proposed.
+# Scripts complete a line like the shell, without its files, and print the proposals.
 ASK = {
     "bash": """source "$1"; shift
                compopt() { [[ $* == '-o default' ]] && echo FILES; }
@@ -77,7 +77,7 @@ class Completion(Installation):
 
     @missing("zsh")
     def test_zsh_gets_every_option_of_every_command(self):
-        # In place of zsh's own function: prints what it is asked to complete.
+        # The stand-in for zsh's own function prints its arguments.
         ask = """compdef() { }; _arguments() { print -rl -- "$@" }; source "$1"; $2"""
         for words in self.commands():
             specifications = self.good("zsh", "-f", "-c", ask, "-", self.script("zsh"),

@@ -14,8 +14,8 @@ HOW_IT_IS_BUILT = ("DEFINES", "FLAGS", "INCLUDES", "COMMAND", "LINK_FLAGS", "LIN
 
 
 def written(build):
-    """By path: how everything is built, the scripts of the installation and the exported targets. What else
-    a first run of CMake writes into build.ninja (where symbols of other systems go, what it depends on) is its own."""
+    """Returns by path the build's commands, the scripts of the installation and the exported targets. Other content of
+    a first run's build.ninja (symbols of other systems, its dependencies) differs."""
     patterns = ("**/cmake_install.cmake", "**/Export/**/*.cmake")
     states = {str(path.relative_to(build)): path.read_text() for pattern in patterns for path in build.glob(pattern)}
     lines = (build / "build.ninja").read_text().splitlines(keepends=True)
@@ -43,7 +43,7 @@ class Configuration(unittest.TestCase):
             self.assertEqual((changed[:3], len(text)), ([], len(second[path])), path)
 
     def test_a_folder_below_the_prefix_stays_below_it(self):
-        """As debhelper names it, without a type, which CMake may take for a path below the current folder."""
+        """debhelper names it without a type, and CMake may take such a path as relative to the current folder."""
         with tempfile.TemporaryDirectory() as folder:
             done = run("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DMENISCUS_TESTS=OFF",
                        "-DCMAKE_INSTALL_LIBDIR=lib/somewhere", cwd=folder)

@@ -42,7 +42,7 @@ def fields(package):
 
 
 def listed(package):
-    """Path of each file and folder, to its mode and owner."""
+    """Returns mode and owner of each file and folder by its path."""
     rows = (line.split(None, 5) for line in run("dpkg-deb", "-c", package).stdout.splitlines())
     return {path.split(" -> ")[0].removeprefix("./").rstrip("/"): (mode, owner) for mode, owner, _, _, _, path in rows}
 
@@ -72,7 +72,7 @@ class DebianPackages(unittest.TestCase):
 
     def test_the_library_depends_on_little_and_works_without_gl(self):
         needed = {entry.split()[0] for entry in fields(self.packages["libmeniscus0"])["Depends"].split(", ")}
-        # zlib1g: for molecules that are read as .gz.
+        # zlib1g reads .gz files of molecules.
         self.assertEqual(needed, {"libc6", "libepoxy0", "libfmt9", "libfreetype6", "libgcc-s1", "libstdc++6", "libtbb12", "zlib1g"})
 
     def test_what_uses_the_library_depends_on_it(self):

@@ -27,7 +27,7 @@ class Installed(Installation):
         here, there = (json.loads(self.good(program, "surface", self.molecule, "--device", "cpu", "--json").stdout)
                        for program in (BUILD / "meniscus", self.program))
         for surface in (here, there):
-            del surface["stages"]  # their times
+            del surface["stages"]  # Times of stages differ.
         self.assertEqual(here, there)
 
     def test_pictures_come_by_the_module_that_was_installed(self):

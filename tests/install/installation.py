@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Installs what was built into a temporary folder, and runs the program from there."""
+"""Installs the build into a temporary folder, and runs the program from there."""
 
 import pathlib
 import re
@@ -13,12 +13,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def run(*words, **options):
-    """Of a command: exit code, output and messages, as text."""
+    """Runs a command and returns its exit code, output and messages as text."""
     return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, **options)
 
 
 class Installation(unittest.TestCase):
-    """`prefix` has what cmake --install brings."""
+    """A test whose `prefix` holds the files of cmake --install."""
 
     @classmethod
     def setUpClass(cls):
@@ -36,7 +36,7 @@ class Installation(unittest.TestCase):
         return done
 
     def commands(self):
-        """The words of every command, and of the program itself: [], ["surface"], ["export", "povray"]..."""
+        """Returns the words of every command, and of the program itself: [], ["surface"], ["export", "povray"]..."""
         found = [[]]
         for words in found:
             lines = re.split(r"\n(?:Commands|Formats):\n", self.good(self.program, *words, "--help-all").stdout)[1:]
@@ -46,7 +46,7 @@ class Installation(unittest.TestCase):
         return found
 
     def options(self, words):
-        """The names of a command's options, as its help has them."""
+        """Returns the names of a command's options in its help."""
         names = []
         for line in self.good(self.program, *words, "--help-all").stdout.splitlines():
             if line.startswith("  -"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The manual pages that are installed: one a command and a topic, without warnings, with every option of the help."""
+"""The installed manual pages: one for each command and topic, without warnings, with every option of the help."""
 
 import gzip
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The recipes for other package managers have this version, name what the library is built with, and can be read."""
+"""Recipes for other package managers have this version, name the library's dependencies, and can be read."""
 
 import re
 import shutil

@@ -23,7 +23,7 @@ def has(module):
 
 
 class WithMsmsInPath(Folder):
-    """Programs find it by the name that they look for."""
+    """Programs find meniscus-msms under the name that they look for."""
 
     def setUp(self):
         super().setUp()
@@ -107,7 +107,7 @@ class Jmol(WithMsmsInPath):
 
 @unittest.skipUnless(has("pymol"), "python3-pymol is not installed")
 class PyMol(WithMsmsInPath):
-    """The way of its plug-ins: read both files, draw the triangles as an object, ask for its extent."""
+    """Its plug-ins read both files, draw the triangles as an object and read its extent."""
 
     def test_triangles_are_shown(self):
         self.molecule()
@@ -145,7 +145,7 @@ with pymol2.PyMOL() as pymol:
 @unittest.skipUnless(has("pyvol"), "bio-pyvol is not installed; scripts/check/more_mesh_readers.sh does it")
 class PyVol(WithMsmsInPath):
     def test_surfaces_of_both_probes_and_a_cavity(self):
-        """Its defaults: 1.4 Å, and 3.4 Å for the large probe that tells pockets from the outside."""
+        """PyVOL's defaults are probes of 1.4 Å and of 3.4 Å, which separates pockets from the outside."""
         self.molecule(TOXIN)
         told = self.script("""
 import warnings; warnings.simplefilter("ignore")
@@ -171,10 +171,10 @@ print(found.mesh.volume, cavity.mesh.volume)
 
 
 class Conventions(Folder):
-    """What programs give to msms, word by word, and read of its files."""
+    """Programs pass these words to msms, and read its files like this."""
 
     def read(self, name="out", header=3):
-        """Rows as those read that throw three lines away and take the count from the third, or that have none."""
+        """Returns rows like readers that take the count from the third line (header=3), or that expect no header."""
         read = []
         for ending, width in (("vert", (9, 10)), ("face", (5,))):
             lines = (self.folder / f"{name}.{ending}").read_text().rstrip().split("\n")
@@ -187,12 +187,12 @@ class Conventions(Folder):
         positions = [tuple(map(float, row[:3])) for row in read[0]]
         corners = [tuple(int(word) - 1 for word in row[:3]) for row in read[1]]
         edges = {(corner[k], corner[k - 2]) for corner in corners for k in range(3)}
-        self.assertTrue(all((b, a) in edges for a, b in edges))  # closed
+        self.assertTrue(all((b, a) in edges for a, b in edges))  # The surface is closed.
         self.assertEqual({corner for row in corners for corner in row}, set(range(len(positions))))
         return read
 
     def test_masif(self):
-        """Names of vertices are the keys of areas; surfaces for learning and design (SurfDock, too)."""
+        """Names of vertices are the keys of areas; surfaces serve learning and design, also in SurfDock."""
         lines = self.molecule(program="meniscus-pdb_to_xyzrn").read_text().splitlines()
         names = [f"A_{line.split()[-1]}_Green" for line in lines]
         self.spheres("".join(" ".join([*line.split()[:4], "1", name]) + "\n" for line, name in zip(lines, names)), "in.xyzrn")
@@ -203,32 +203,32 @@ class Conventions(Folder):
         self.assertTrue({row[9] for row in rows} <= set(areas))
 
     def rows(self, pdb=UBIQUITIN):
-        """Four numbers a sphere."""
+        """Returns four numbers per sphere."""
         return [tuple(map(float, line.split()[:4])) for line in self.molecule(pdb).read_text().splitlines()]
 
     def test_pygbe(self):
-        """By its recipe: columns of a PQR by awk, which makes blanks of the last line; hydrogens may have radius 0; no headers.
-        Inner cavities by one more word; a Stern layer of larger spheres, and a small probe."""
+        """PyGBe's recipe takes columns of a PQR by awk, which makes blanks of the last line; hydrogens may have radius
+        0; no headers. Inner cavities need one more word; a Stern layer has larger spheres and a small probe."""
         spheres = self.rows(TOXIN)
         self.spheres("".join(f"{x:.3f} {y:.3f} {z:.3f} {r:.4f}\n{x:.3f} {y:.3f} {z + 1:.3f} 0.0000\n" for x, y, z, r in spheres)
                      + "   \n", "protein.xyzr")
         for words in ((), ("-all_components",)):
             self.msms("-if", "protein.xyzr", "-of", "protein1", "-prob", "1.4", "-d", "2", "-no_header", *words)
             rows, _ = self.read("protein1", header=0)
-            self.assertEqual({int(row[7]) % 2 for row in rows}, {1})  # of two spheres each time the first
+            self.assertEqual({int(row[7]) % 2 for row in rows}, {1})  # Vertices belong to the first of each two spheres.
         self.read("protein1_1", header=0)
         self.spheres("".join(f"{x:5.5f} {y:5.5f} {z:5.5f} {r + 2:5.5f}\n" for x, y, z, r in spheres), "protein.stern")
         self.msms("-if", "protein.stern", "-of", "protein1_stern", "-prob", "0.5", "-d", "2", "-no_header")
         self.read("protein1_stern", header=0)
 
     def test_pbj(self):
-        """Tabulators between columns."""
+        """Columns are separated by tabulators."""
         self.spheres("".join(f"{x:.3f}\t{y:.3f}\t{z:.3f}\t{r:.4f}\n" for x, y, z, r in self.rows()), "tabs.xyzr")
         self.msms("-if", self.folder / "tabs.xyzr", "-of", self.folder / "out", "-p", "1.4", "-d", "2.0", "-no_header")
         self.read(header=0)
 
     def test_tabi_pb_and_mibpb(self):
-        """Those of before NanoShaper, in C and in Fortran, which writes all digits of a number, some with exponents, and five
+        """Versions before NanoShaper, in C and in Fortran, write all digits of a number, some with exponents, and five
         characters of density."""
         spheres = self.rows()
         (self.folder / "data").mkdir()
@@ -240,7 +240,7 @@ class Conventions(Folder):
             self.assertTrue(all(int(word) for row in rows for word in row[7:9]) and all(int(row[3]) in (1, 2, 3) for row in faces))
 
     def test_vmd_by_files(self):
-        """What it does on Windows, and elsewhere where VMDMSMSUSEFILE is set: a name with points in it, nine numbers by scanf."""
+        """VMD does so on Windows, and where VMDMSMSUSEFILE is set: a name with points in it, nine numbers by scanf."""
         spheres = self.rows()
         self.spheres("".join("%f %f %f %f\n" % sphere for sphere in spheres), "vmdmsms.u0.478")
         name = self.folder / "vmdmsms.u0.478"
@@ -250,13 +250,13 @@ class Conventions(Folder):
         self.assertTrue(all(1 <= int(row[7]) <= len(spheres) for row in rows))
 
     def test_bcl(self):
-        """Areas alone, the ending given by the client."""
+        """The client reads areas alone, and gives the ending."""
         self.molecule()
         self.msms("-if", "in.xyzr", "-af", "in.area", "-probe_radius", "1.399")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["in.area", "in.xyzr"])
 
     def test_pyvol(self):
-        """Its large probe on a protein of several chains; the names that it looks for with all components."""
+        """PyVOL uses a large probe on a protein of several chains, and looks for certain names with all components."""
         self.molecule(TOXIN)
         self.msms("-if", "in.xyzr", "-of", "out", "-probe_radius", "3.4", "-no_area", "-noh")
         self.read()
@@ -266,7 +266,7 @@ class Conventions(Folder):
 
 
 class Server(Folder):
-    """A client that does what VMD does."""
+    """A client that acts like VMD."""
 
     def connect(self, *words):
         for _ in range(20):
@@ -316,7 +316,7 @@ class Server(Folder):
         corners, rows, atoms = self.ask(balls)
         self.msms("-if", "in.xyzr", "-of", "out", "-density", "2")
         files = triangles(self.folder / "out.face")
-        self.assertAlmostEqual(len(files), len(corners), delta=0.002 * len(files))  # floats move ties
+        self.assertAlmostEqual(len(files), len(corners), delta=0.002 * len(files))  # Floats move ties.
         self.assertEqual({kind for *_, kind, _ in corners}, {1, 2, 3})
         self.assertTrue(all(0 <= n < len(rows) for row in corners for n in row[:3]))
         for (nx, ny, nz, x, y, z), atom in zip(rows, atoms):

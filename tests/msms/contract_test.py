@@ -24,7 +24,7 @@ def octahedron(a, radius=1.7):
                    ((a, 0, 0), (-a, 0, 0), (0, a, 0), (0, -a, 0), (0, 0, a), (0, 0, -a)))
 
 
-CAGE = octahedron(3.2)  # the probe fits in, and far from what lies outside
+CAGE = octahedron(3.2)  # The probe fits in, far from the outer balls.
 CUT_CAGE = octahedron(3.6)  # probes inside and outside cut each other at eight windows
 
 
@@ -63,7 +63,7 @@ class CommandLine(Folder):
         for (option, value), told in words.items():
             self.assertIn(told, self.msms("-if", "in.xyzr", option, value).stdout)
         self.assertNotIn("ANALYTICAL", self.msms("-if", "in.xyzr", "-no_a").stdout)
-        self.assertNotIn("ANALYTICAL", self.msms("-if", "in.xyzr", "-no").stdout)  # the first that begins so
+        self.assertNotIn("ANALYTICAL", self.msms("-if", "in.xyzr", "-no").stdout)  # The first option that begins so is meant.
         self.assertNotIn("NUMERICAL", self.msms("-if", "in.xyzr", "-s", "ases").stdout)
         for ignored in (("-no_rest",), ("-no_r",), ("-no_rest_on_pbr",), ("-free_vertices",), ("-f",)):
             self.msms("-if", "in.xyzr", *ignored)
@@ -186,7 +186,7 @@ class Probes(Folder):
 
 
     def test_the_density_holds_where_saddles_are_thin(self):
-        """Probes of hundredths of an Å: 200,000 vertices of 95 balls once, as many as their tubes are round."""
+        """Probes of hundredths of an Å once gave 200,000 vertices for 95 balls, as many as their tubes are round."""
         rows = run(BUILD / "meniscus-pdb_to_xyzr", UBIQUITIN).stdout.splitlines(keepends=True)
         self.spheres("".join(rows[:95]))
         for probe in ("0.03", "0.01", "0.003"):
@@ -245,7 +245,7 @@ class PdbToXyzr(Folder):
 
 @unittest.skipUnless(shutil.which("update-alternatives"), "update-alternatives is not installed")
 class Alternatives(Folder):
-    """What the Debian package does when it comes and goes, in a folder instead of in /."""
+    """The Debian package is installed and removed in a folder in place of /."""
 
     def script(self, name, word):
         text = (ROOT / f"scripts/package/debian/meniscus.{name}").read_text().replace("/usr/", f"{self.folder}/usr/")
@@ -346,12 +346,12 @@ class Components(Folder):
         for words in (("1", "0"), ("2", "0", "2"), ("3", "0", "2", "4")):
             told = table(self.msms("-if", "in.xyzr", "-probe_radius", "1.4", "-one_cavity", *words).stdout, ANALYTIC)
             self.assertEqual(told, [[0, *everything[1][1:]]])
-        for words in (("2", "0", "1"), ("1", "6")):  # opposite ends; no such sphere
+        for words in (("2", "0", "1"), ("1", "6")):  # opposite ends, and a sphere that does not exist
             done = self.refused(3, "-if", "in.xyzr", "-of", "out", "-probe_radius", "1.4", "-one_cavity", *words)
             self.assertIn("find_first_rs_face", done.stderr)
 
     def test_clients_number_spheres_of_a_cavity_from_0(self):
-        """PyVOL, SurfDock and others pass what numpy.argmin says of the rows that they wrote."""
+        """PyVOL, SurfDock and others pass numpy.argmin's index among the rows that they wrote."""
         far = "".join(f"{float(line.split()[0]) + 40} {line.split(maxsplit=1)[1]}\n" for line in octahedron(3.6).splitlines())
         rows = (CAGE + far).splitlines()  # six spheres around one cavity, six around a larger one
         self.spheres(CAGE + far)
@@ -363,8 +363,8 @@ class Components(Folder):
             self.assertEqual(told, [[0, *cavity[1:]]])
 
     def test_those_of_lysozyme_beside_those_of_the_surface(self):
-        """Sheets of the reduced surface are those of the solvent-accessible one; where two of them cross, they are one
-        component of the solvent-excluded surface, and what crosses is cut off."""
+        """Sheets of the reduced surface belong to the solvent-accessible one; where two of them cross, they are one
+        component of the solvent-excluded surface, and the crossing parts are cut off."""
         (self.folder / "in.xyzr").write_text(run(BUILD / "meniscus-pdb_to_xyzr", LYSOZYME).stdout)
         done = self.msms("-if", "in.xyzr", "-of", "out", "-all_components", "-probe_radius", "1.4", "-density", "1")
         analytic, numeric = table(done.stdout, ANALYTIC), table(done.stdout, NUMERIC)
@@ -384,7 +384,7 @@ class Components(Folder):
                 groups = [group for group in groups if not group & joined] + [joined]
         self.assertEqual(sorted(map(sorted, groups)), [[0, 1, 5], [2], [3, 4]])
         groups.sort(key=lambda group: max(numeric[k][3] for k in group), reverse=True)
-        for group, part in zip(groups, surfaces["ses"], strict=True):  # each by falling area
+        for group, part in zip(groups, surfaces["ses"], strict=True):  # Both lists have falling areas.
             volume, area = (sum(numeric[k][column] for k in group) for column in (2, 3))
             if len(group) == 1:
                 self.assertAlmostEqual(part["signed_volume"], volume, delta=0.001)
@@ -454,7 +454,7 @@ class Files(Folder):
         for t in self.corners:
             self.assertEqual(kinds.setdefault(t.face, t.kind), t.kind)
         numbers = sorted(kinds)
-        self.assertLessEqual(numbers[-1] - len(numbers), 0.01 * len(numbers))  # faces that welding took
+        self.assertLessEqual(numbers[-1] - len(numbers), 0.01 * len(numbers))  # Welding took some faces away.
         self.assertGreater(min(n for n in numbers if kinds[n] == 1), max(n for n in numbers if kinds[n] != 1))
 
     def test_vertices_inside_and_on_edges_belong_to_triangles_of_their_faces(self):
@@ -487,7 +487,7 @@ class Files(Folder):
             around = [n for dx in (-1, 0, 1) for dy in (-1, 0, 1) for dz in (-1, 0, 1)
                       for n in near.get((cell[0] + dx, cell[1] + dy, cell[2] + dz), [])]
             wrong += self.distance(row, row.sphere) > min(self.distance(row, n) for n in around) + 0.002
-        self.assertLessEqual(wrong, 0.002 * len(self.rows))  # where one that the probe does not touch comes nearest
+        self.assertLessEqual(wrong, 0.002 * len(self.rows))  # An atom that the probe does not touch may be nearest.
 
     def test_names_are_those_of_the_spheres(self):
         names = [line.split()[5] for line in (self.made / "in.xyzrn").read_text().splitlines()]

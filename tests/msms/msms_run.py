@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the programs under test in folders of their own, and reads their files as the three kinds of clients do."""
+"""Runs the programs under test in folders of their own, and reads their files like the three kinds of clients."""
 
 import collections
 import pathlib
@@ -20,12 +20,12 @@ Triangle = collections.namedtuple("Triangle", "corners kind face")
 
 
 def run(*words, **options):
-    """Of a command: exit code, output and messages, as text."""
+    """Runs a command and returns its exit code, output and messages as text."""
     return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, timeout=120, **options)
 
 
 def vertices(path):
-    """By split: rows of nine or ten fields, all others passed over."""
+    """Reads vertices by split: rows of nine or ten fields; it passes over all others."""
     rows = []
     for line in path.read_text().splitlines():
         fields = line.split()
@@ -37,7 +37,7 @@ def vertices(path):
 
 
 def triangles(path):
-    """By split: rows of five fields that are whole numbers."""
+    """Reads triangles by split: rows of five fields that are whole numbers."""
     rows = []
     for line in path.read_text().splitlines():
         fields = line.split()
@@ -51,13 +51,13 @@ SCANNED = re.compile(r"\s*" + r"\s+".join([r"([-+]?\d+\.\d+)"] * 6 + [r"([-+]?\d
 
 
 def scanned_vertices(path):
-    """By scanf: nine numbers from the beginning of each line, whatever follows."""
+    """Reads vertices by scanf: nine numbers from the beginning of each line, with anything behind them."""
     matches = (SCANNED.match(line) for line in path.read_text().splitlines())
     return [match.groups() for match in matches if match]
 
 
 def table(out, title):
-    """Rows of numbers under a line of titles, up to the first that is none."""
+    """Returns the rows of numbers under a line of titles, up to the first other line."""
     rows = []
     for line in out.split(title, 1)[1].splitlines()[1:]:
         if not re.fullmatch(r"[\s\d.+-]+", line):
@@ -95,7 +95,7 @@ class Folder(unittest.TestCase):
         return self.good(MSMS, *words, cwd=self.folder)
 
     def refused(self, code, *words):
-        """With this exit code, a message, and no file."""
+        """Checks that a command fails with this exit code and a message, and writes no file."""
         before = sorted(self.folder.iterdir())
         done = run(MSMS, *words, cwd=self.folder)
         self.assertEqual(done.returncode, code, done.stderr)

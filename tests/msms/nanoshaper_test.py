@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""meniscus-nanoshaper: a configuration as its clients write it, and files as they read them, by place in the file."""
+"""meniscus-nanoshaper with configurations of its clients, and its files by place, like clients read them."""
 
 import collections
 import json
@@ -34,7 +34,7 @@ Mesh = collections.namedtuple("Mesh", "positions normals atoms triangles")
 
 
 def rows(path, width):
-    """Two lines are thrown away, the third is the number of rows, as propermab reads it; all others are rows."""
+    """Reads rows like propermab: two lines are thrown away, and the third is the number of rows, which follow."""
     lines = path.read_text().splitlines()
     found = [line.split() for line in lines[3:]]
     assert len(found) == int(lines[2]) and {len(row) for row in found} == {width}, path
@@ -70,7 +70,7 @@ def area_and_volume(mesh):
 
 
 def shells(mesh):
-    """Parts of the mesh that hang together."""
+    """Returns the connected parts of the mesh."""
     parent = list(range(len(mesh.positions)))
 
     def root(vertex):
@@ -113,7 +113,7 @@ class NanoShaper(Folder):
         self.assertTrue(all(abs(dot(normal, normal) - 1) < 0.005 for normal in mesh.normals))
 
     def test_every_line_is_as_in_the_sources_of_nanoshaper(self):
-        """fprintf of Surface::saveMesh, versions 0.8.1 and 1.5; only the date in line 1 is not there."""
+        """Each line has the format of fprintf in Surface::saveMesh, versions 0.8.1 and 1.5, but no date in line 1."""
         mesh = self.shape(scale=1.0)
         first = r"# File created by NanoShaper version \d\S* .*"
         vert = (self.folder / "triangulatedSurf.vert").read_text().split("\n")
@@ -148,7 +148,7 @@ class NanoShaper(Folder):
         self.assertGreater(area_and_volume(filled)[1], area_and_volume(whole)[1])
 
     def test_the_template_of_pbj(self):
-        """Blanks at ends of lines, numbers with zeros before them, a path, and no end of the last line."""
+        """The template has blanks at ends of lines, numbers with leading zeros, a path, and no end of the last line."""
         path = self.molecule()
         text = CONFIGURATION.format(scale="02.0 ", fill="false").replace("molecule.xyzr", f"{path} ")
         (self.folder / "surfaceConfiguration.prm").write_text(
@@ -157,7 +157,7 @@ class NanoShaper(Folder):
         self.assertGreater(len(read_mesh(self.folder).triangles), 10_000)
 
     def test_the_parameters_of_vmd(self):
-        """As it writes them, in a file that it names; it reads both files of MSMS behind three lines, by scanf."""
+        """VMD names the file of its parameters; it reads both files of MSMS behind three lines, by scanf."""
         path, base = self.molecule(), self.folder / "vmdns.u0.664."
         path.rename(f"{base}xyzr")
         pathlib.Path(f"{base}prm").write_text(f"""Operative_Mode = normal
@@ -197,7 +197,7 @@ Max_skin_patches_per_auxiliary_grid_2d_cell = 2000
         self.assertGreater(len(read_mesh(self.folder).triangles), 1000)
 
     def test_every_key_is_honoured_refused_or_named(self):
-        """What asks for another result than the files that are here is refused; what NanoShaper does not know, named."""
+        """Keys for results other than our files are refused; keys unknown to NanoShaper are named."""
         self.molecule(name="molecule.xyzr")
         least = "XYZR_FileName = molecule.xyzr\nGrid_scale = 0.5\n"
         both = {"triangulatedSurf.vert", "triangulatedSurf.face", "triangulatedSurf.off"}
@@ -226,7 +226,7 @@ Max_skin_patches_per_auxiliary_grid_2d_cell = 2000
         self.assertIn("warning: surfaceConfiguration.prm: 'Probe_radius' is not a key of NanoShaper", done.stderr)
 
     def test_files_are_those_that_the_client_reads(self):
-        """VMD gives names a beginning of their own; others ask for OFF, the form that NanoShaper has without a key."""
+        """VMD gives names a prefix of its own; other clients need OFF, the default form of NanoShaper."""
         mesh = self.shape(scale=1.0)
         settings = self.folder / "surfaceConfiguration.prm"
         as_msms = settings.read_text()

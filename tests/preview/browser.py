@@ -16,7 +16,7 @@ import websockets
 
 
 class Preview:
-    """`meniscus preview FILE --serve`, until the with-block ends. options: of Popen."""
+    """`meniscus preview FILE --serve`, which runs until the with-block ends. options: arguments of Popen."""
 
     def __init__(self, program, *arguments, port="", **options):
         self.process = subprocess.Popen([program, "preview", *arguments, "--serve", *([str(port)] if port else [])],
@@ -33,7 +33,7 @@ class Preview:
         self.origin = f"http://127.0.0.1:{self.port}"
 
     def socket(self, **options):
-        """A socket as the page opens it; origin and the like can be given."""
+        """Returns a socket like that of the page; options such as the origin may differ."""
         options = {"origin": self.origin, "max_size": None, **options}
         return websockets.connect(self.url.replace("http:", "ws:") + "socket", **options)
 
@@ -51,7 +51,7 @@ class Preview:
 
 
 async def receive(client, wanted):
-    """The first message that `wanted` accepts; pictures that come before it are passed by."""
+    """Returns the first message that `wanted` accepts, and skips pictures before it."""
     while True:
         data = await asyncio.wait_for(client.recv(), 30)
         if isinstance(data, str) and wanted(json.loads(data)):
@@ -64,8 +64,8 @@ async def ask(client, command, number=1):
 
 
 class Browser:
-    """One page in a Chromium of its own; `async with Browser(program) as page`. options: more of the command line. By
-    default the page has no WebGL: on a busy machine that of software stops the page for minutes."""
+    """One page in its own Chromium; `async with Browser(program) as page`. options: more of the command line. By
+    default the page has no WebGL, because software WebGL stops the page for minutes on a busy machine."""
 
     def __init__(self, program, size=(1280, 800), options=("--disable-3d-apis",)):
         self.program, self.size, self.options = program, size, options
@@ -128,7 +128,7 @@ class Browser:
         self.waiting[self.number] = asyncio.get_running_loop().create_future()
         answer = self.waiting[self.number]
         await self.connection.send(json.dumps({"id": self.number, "method": method, "params": parameters}))
-        message = await asyncio.wait_for(answer, 120)  # software GL may draw that long
+        message = await asyncio.wait_for(answer, 120)  # software GL may need so long to draw
         if "error" in message:
             raise RuntimeError(f"{method}: {message['error']}")
         return message["result"]
@@ -140,7 +140,7 @@ class Browser:
         return result["result"].get("value")
 
     async def until(self, script, seconds=60):
-        """Waits until the script gives something true, which is returned; a page that is loaded anew gives nothing."""
+        """Waits until the script returns something true, and returns it; a page that loads returns nothing."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             try:
@@ -167,7 +167,7 @@ class Browser:
         await self.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
 
     async def drag(self, path, button="left", modifiers=0, pause=0.0):
-        """Presses at the first point, moves along the path, releases at the last."""
+        """Presses at the first point, moves along the path, and releases at the last."""
         held = {"left": 1, "right": 2}[button]
         await self.mouse("mouseMoved", *path[0])
         await self.mouse("mousePressed", *path[0], button=button, buttons=held, clickCount=1, modifiers=modifiers)

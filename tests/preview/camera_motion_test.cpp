@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motions of the camera keep what they promise, from random cameras of both projections.
+// Motions of the camera have their documented properties, from random cameras of both projections.
 #include "app/preview/preview_state.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr glm::dvec2 kSize{1000, 800};
 
-/// Where in the picture a point is seen: column and row of pixel_ray.
+/// Returns where a point is seen in the picture: the column and row of pixel_ray.
 glm::dvec2 pixel_of(const Camera& camera, const glm::dvec3& point) {
   const ViewBasis basis = view_basis(camera);
   const glm::dvec3 v = point - camera.position;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of commands: each makes another state of one and leaves that as it is; commands.md tells of all of them.
+// The table of commands: each makes another state without changing the given one; commands.md has all.
 #include "app/preview/commands.h"
 
 #include <sstream>
@@ -75,7 +75,7 @@ TEST(PreviewCommands, AreInTheirTableOfCommands) {
       EXPECT_NE(page.find("`" + std::string(key) + "`"), std::string::npos) << word << " " << key;
   }
   EXPECT_GT(count, 35u);
-  // Words of former versions say what has become of them.
+  // Messages about words of former versions name their successors.
   try {
     row_of(CommandReader(Json{{"command", "probe"}}));
     ADD_FAILURE();

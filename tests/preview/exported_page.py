@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads what the page of `meniscus export page` holds."""
+"""Reads the data in a page of `meniscus export page`."""
 
 import json
 import re
@@ -18,7 +18,7 @@ def parts_of(data):
 
 
 def page_of(text):
-    """Returns the description of an exported page and its tables, whose records are whole again."""
+    """Returns the description of an exported page and its tables, whose records are restored."""
     count, letters = re.search(r'id="data" data-bytes="(\d+)">([^<]*)<', text).groups()
     values = {chr(code): n for n, code in enumerate(c for c in range(33, 127) if chr(c) not in "&<>")}
     known = [values[letter] for letter in letters if letter > " "]

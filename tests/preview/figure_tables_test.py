@@ -80,7 +80,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
 
     async def figure(self, client, has=None, asks=True):
         """Asks for a figure with the tables that came before. Returns the message, the description, the tables, and the
-        number of bytes of the tables that came now."""
+        number of bytes of the new tables."""
         if asks:
             await client.send(json.dumps({"request": "figure", "has": list(self.kept) if has is None else has}))
         message = await receive(client, lambda m: m.get("event") == "figure")
@@ -96,7 +96,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
         return message, description, tables, sum(map(len, parts[1:]))
 
     async def exported(self, client):
-        """Saves the scene of the preview and exports its page; what page_of() reads in it."""
+        """Saves the scene of the preview, exports its page, and returns the result of page_of()."""
         self.assertTrue((await ask(client, {"command": "save", "path": "scene.json", "width": 320, "height": 240,
                                             "force": True}))["ok"])
         done = subprocess.run([PROGRAM, "export", "page", "--trust-scene", "--scene", self.path("scene.json"), "-o",
@@ -106,7 +106,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
             return page_of(file.read())
 
     def assert_rows(self, table, what):
-        """Compares rows with the exported page's: integers to the bit, numbers within STEPS."""
+        """Compares rows with those of the exported page: integers exactly, numbers within STEPS."""
         scripts = pathlib.Path(__file__).parents[2] / "exporters/page/page"
         done = subprocess.run(["node", "-e", RESTORE, scripts, self.path("page.html")], capture_output=True, text=True)
         self.assertEqual(done.stderr, "", what)
@@ -115,7 +115,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
         with numpy.errstate(invalid="ignore"):
             is_close = (numpy.abs(both[0] - both[1]) <= STEPS) & (numpy.maximum(*numpy.abs(both)) > 1e-30)
         words = [rows.view("<u4") for rows in both]
-        is_zero = (words[0] | words[1]) & 0x7fffffff == 0  # of either sign
+        is_zero = (words[0] | words[1]) & 0x7fffffff == 0  # zeros of either sign
         self.assertTrue(((words[0] == words[1]) | is_close | is_zero).all(), what)
 
     async def same_as_exported(self, client, what):
@@ -184,7 +184,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
             self.assertGreater(len(self.shaders), 10)
             self.assertGreater(whole, 3_000_000)
             self.assertEqual(len(tables["colors"]), 16 * description["layers"]["surface_atoms"])
-            # The view is not the figure's: nothing comes before the figure changes.
+            # The figure has no view: nothing comes before the figure changes.
             await client.send(json.dumps({"request": "figure", "has": list(self.kept)}))
             for n in range(20):
                 self.assertTrue((await ask(client, {"command": "orbit", "dx": 0.01, "dy": 0.0}))["ok"])
@@ -236,7 +236,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
             self.assertNotEqual(first["primitives"], second["primitives"])
             self.assertEqual((first["colors"], first["shown"]), (second["colors"], second["shown"]))
             self.assertEqual(count, sum(len(second[name]) for name in ("primitives", "rows", "balls")))
-            # The frames of a run that plays come to a page that asks for figures alone.
+            # The frames of a run that plays also come to a page that asks for figures only.
             await ask(client, {"command": "play", "fps": 20})
             shown = {(await self.figure(client))[0]["state"]["frame"] for _ in range(4)}
             self.assertGreater(len(shown), 1)

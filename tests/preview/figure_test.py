@@ -31,7 +31,7 @@ class Figures(unittest.TestCase):
         return done
 
     def session(self, file, *options, commands, device="cpu"):
-        """The replies to these commands, of a session that begins with these options."""
+        """Returns the replies to these commands of a session that begins with these options."""
         with open(self.path("session.jsonl"), "w") as lines:
             for command in [{"command": "resize", **SIZE}, *commands, {"command": "quit"}]:
                 lines.write(json.dumps(command) + "\n")
@@ -136,7 +136,7 @@ class Figures(unittest.TestCase):
                 begun = self.same_picture(MOLECULE, "--select", "chain D", "--surface", kind, "--color", "chain",
                                           device=device, commands=[{"command": "state"}])
                 self.assertEqual((begun[0]["values"]["surface.kind"], begun[0]["drawn_by"]), (kind, "cpu" if device == "cpu" else "gl"))
-        # A figure on its way through all of them, and back to one.
+        # The figure goes through all of them, and back to the first one.
         self.same_picture(MOLECULE, "--select", "chain D", "--surface", "vdw", commands=[
             {"command": "set", "key": "surface.kind", "value": "sas"}, {"command": "set", "key": "surface.probe", "value": 2.5},
             {"command": "add", "key": "figure.tube", "value": "chain D"}, {"command": "add", "key": "surface.opacity", "value": 0.4},
@@ -149,7 +149,7 @@ class Figures(unittest.TestCase):
                                     {"command": "add", "key": "figure.spheres", "value": "chain A"}])
 
     def test_copies_in_frames(self):
-        """Two rows of atoms, one a copy of the other; in the last frame they touch."""
+        """Two rows of atoms, one of which is a copy of the other, touch in the last frame."""
         with open(self.path("twice.pdb"), "w") as file:
             file.write("REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n")
             for copy, shift in (1, 0.0), (2, 8.0):
@@ -178,7 +178,7 @@ class Figures(unittest.TestCase):
         self.same_picture(models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", "--superpose", "name CA",
                           commands=commands)
 
-        # Fluctuations over the frames are there to be returned to, in scenes, too.
+        # The session can return to fluctuations over the frames, also in scenes.
         run = (models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", "--superpose", "name CA", "--color", "rmsf")
         replies = self.same_picture(*run, commands=[{"command": "state"}, *commands[:2], {"command": "set", "key": "surface.color", "value": "chain"},
                                                     {"command": "set", "key": "surface.color", "value": "rmsf"}, {"command": "state"},
@@ -194,7 +194,7 @@ class Figures(unittest.TestCase):
         done = self.run_program("preview", models, "--serve", "--color", "rmsf", code=2)
         self.assertIn("measured once, over all frames", done.stderr)
 
-        # Numbers of a file by frame, of which the legend has one scale.
+        # The numbers of a file by frame have one scale in the legend.
         with open(self.path("numbers.csv"), "w") as table:
             table.write("frame,index,score\n")
             table.writelines(f"{frame},{atom},{(7 * frame + atom) % 50}\n" for frame in range(3) for atom in range(1, 200))
@@ -223,7 +223,7 @@ class Figures(unittest.TestCase):
             colors.write("#102030\n#f0f040\n#ff0000\n")
         options = ("--color-by-file", self.path("numbers.txt"), "--map-file", self.path("map.txt"))
         begun = self.same_picture(MOLECULE, *options, commands=[{"command": "state"}])
-        # To another scheme and back to what it was begun with.
+        # The session changes to another scheme and back to the first one.
         there = self.same_picture(MOLECULE, *options, commands=[
             {"command": "set", "key": "surface.color", "value": "chain"}, {"command": "set", "key": "surface.color", "value": "file"}, {"command": "state"}])
         self.assertEqual(begun[0]["values"]["surface.color"], there[2]["values"]["surface.color"])
@@ -280,7 +280,7 @@ class Figures(unittest.TestCase):
         hidden = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}, "objects": [
             {"representation": "sticks", "selection": "chain C"},
             {"representation": "balls", "selection": "resid 1-30 and chain D", "color": "chain", "specular": 0.9}]}
-        # What is said aloud although it is so anyway is no hindrance.
+        # A scene may also have values that are the defaults.
         plain = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}, "objects": [
             {"representation": "surface", "kind": "ses", "cavities": "keep"}]}
         accessible = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}, "objects": [
@@ -313,7 +313,7 @@ class Figures(unittest.TestCase):
         self.assertTrue(all(reply["ok"] for reply in replies), replies)
         self.run_program("render", "--scene", self.path("figure.json"), "--trust-scene", "-o", "rendered.png")
         self.same("figure.png", "rendered.png")
-        # Another session opens it, undoes that, and does it again.
+        # Another session opens it, undoes that, and redoes it.
         replies = self.session(MOLECULE, "--select", "polymer", commands=[
             {"command": "open", "path": "figure.json"}, {"command": "state"},
             {"command": "export", "format": "png", "path": "opened.png"},
@@ -324,7 +324,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(replies[1]["values"], replies[-1]["values"])
         for name, expected in (("opened", "figure"), ("undone", "first"), ("redone", "figure")):
             self.same(f"{name}.png", f"{expected}.png")
-        # Pictures carry their scenes, and so do pages.
+        # Pictures and pages contain their scenes.
         options = (MOLECULE, "--select", "polymer", "--color", "chain", "--tube", "chain D", "--clip", "x<60", "--probe", "1.6")
         self.run_program("export", "page", *options, "-o", "page.html")
         self.run_program("render", *options, "--size", "240x180", "--samples", "2", "-o", "page.png")
@@ -336,7 +336,7 @@ class Figures(unittest.TestCase):
             self.same("again.png", expected)
 
     def frames_of(self, film):
-        """How many pictures a film has, and their size."""
+        """Returns the number of pictures of a film, and their size."""
         probed = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
                                  "stream=nb_read_frames,width,height,r_frame_rate", "-of", "json", self.path(film)],
                                 capture_output=True, text=True, check=True)
@@ -356,7 +356,7 @@ class Figures(unittest.TestCase):
         run = (models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", "--frames", "0-2", "--superpose", "name CA")
         self.session(*run, commands=[{"command": "play", "fps": 5}, film])
         self.assertEqual(self.frames_of("film.mp4"), (3, 120, 90, "5/1"))
-        # Refusals of the program that makes it are those of the export, and nothing is left behind.
+        # The export reports the errors of the program that makes the film, and leaves no file.
         with open(self.path("session.jsonl"), "w") as lines:
             lines.write(json.dumps({**film, "path": "small.mp4", "width": 16, "height": 16}) + "\n")
         done = subprocess.run([PROGRAM, "preview", MOLECULE, "--serve", "--legend", "--output-dir", self.folder,

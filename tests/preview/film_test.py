@@ -85,7 +85,7 @@ class Films(unittest.TestCase):
                 ("export", {"format": "png", "path": "first.png", "force": True, **self.SIZE})])
             strip = self.pictures("strip.mkv")
             self.assertEqual(len(strip), 2 + 2)
-            change = [sum(abs(a - b) for a, b in zip(*pair)) / len(pair[0]) for pair in zip(strip, strip[1:])]  # lossy
+            change = [sum(abs(a - b) for a, b in zip(*pair)) / len(pair[0]) for pair in zip(strip, strip[1:])]
             self.assertLess(max(change[0], change[2]), 0.2 * change[1], (words, change))
             self.assertEqual(len(set(self.pictures("turn.mkv"))), 5, words)
             self.assertEqual(len(self.pictures("frames.mkv")), frames)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A Firefox on a display that nobody sees, driven by WebDriver BiDi, which looks at pages as browser.Browser does."""
+"""A Firefox on a hidden display, driven by WebDriver BiDi, which uses pages like browser.Browser."""
 
 import asyncio
 import base64
@@ -12,19 +12,19 @@ import subprocess
 import websockets
 from browser import Browser
 
-# Nothing of its own is fetched or asked, and WebGL runs without a device.
+# Firefox fetches and asks nothing, and WebGL runs without a device.
 PREFERENCES = {"webgl.force-enabled": True, "webgl.disabled": False, "app.update.enabled": False, "datareporting.policy.dataSubmissionEnabled": False,
                "browser.shell.checkDefaultBrowser": False, "browser.aboutwelcome.enabled": False, "network.captive-portal-service.enabled": False,
                "network.connectivity-service.enabled": False}
 
 
 class Firefox(Browser):
-    """One page in a Firefox of its own; `async with Firefox(program) as page`. It has no mouse."""
+    """One page in its own Firefox; `async with Firefox(program) as page`. It has no mouse."""
 
     async def __aenter__(self):
         with open(os.path.join(self.folder.name, "user.js"), "w") as file:
             file.writelines(f"user_pref({json.dumps(name)}, {json.dumps(value)});\n" for name, value in PREFERENCES.items())
-        # Headless it has no GL, so it has a display of its own.
+        # A headless Firefox has no GL, so it has its own display.
         self.process = subprocess.Popen(["xvfb-run", "-a", "-s", "-screen 0 1400x1000x24", self.program, "--no-remote", "--profile", self.folder.name, "--remote-debugging-port=0", "about:blank"],
                                         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
                                         env={**os.environ, "HOME": self.folder.name})
@@ -43,7 +43,7 @@ class Firefox(Browser):
         return self
 
     async def __aexit__(self, *_):
-        os.killpg(self.process.pid, signal.SIGTERM)  # xvfb-run ends neither of its two by itself
+        os.killpg(self.process.pid, signal.SIGTERM)  # xvfb-run does not end its two programs
         self.process.wait(30)
         await self.drain
         self.reader.cancel()
@@ -61,13 +61,13 @@ class Firefox(Browser):
         self.number += 1
         answer = self.waiting[self.number] = asyncio.get_running_loop().create_future()
         await self.connection.send(json.dumps({"id": self.number, "method": method, "params": parameters}))
-        message = await asyncio.wait_for(answer, 240)  # software GL may draw that long
+        message = await asyncio.wait_for(answer, 240)  # software GL may need so long to draw
         if message["type"] == "error":
             raise RuntimeError(f"{method}: {message['message']}")
         return message["result"]
 
     async def evaluate(self, script):
-        """A number, a text, or whether."""
+        """Returns a number, a text or a truth value."""
         answer = await self.send("script.evaluate", expression=script, target={"context": self.context}, awaitPromise=True)
         if answer["type"] == "exception":
             raise RuntimeError(str(answer["exceptionDetails"]))

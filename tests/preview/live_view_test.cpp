@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The schedule of drafts and full pictures: which is stopped for which, and how films are drawn.
+// The schedule of drafts and full pictures: which picture stops for which change, and how films are drawn.
 #include "app/preview/session.h"
 
 #include <chrono>
@@ -16,7 +16,7 @@
 namespace meniscus::test {
 namespace {
 
-// A surface takes stages, and none is begun for someone who does not want it any more.
+// A surface has stages, and none begins for a client that no longer wants the surface.
 TEST(LivePictures, SurfacesCanBeGivenUpBetweenStages) {
   const std::unique_ptr<PreviewRenderer> renderer = make_cpu_preview_renderer();
   renderer->set_atoms({{{0, 0, 0}, 1.7}, {{3, 0, 0}, 1.5}});
@@ -39,13 +39,13 @@ TEST(LivePictures, SurfacesCanBeGivenUpBetweenStages) {
   ASSERT_TRUE(renderer->draw(2.0, camera, settings, [] { return false; }));
   EXPECT_EQ(renderer->surface()->probe_radius, 2.0);
   EXPECT_NE(renderer->rgba(), before);
-  // Another view of the same surface computes none.
+  // Another view of the same surface computes no surface.
   camera.position = {0, 0, 30};
   ASSERT_TRUE(renderer->draw(2.0, camera, settings));
   EXPECT_LT(renderer->times().size(), stages);
 }
 
-// Of many atoms the first surface takes long; balls are there at once, and never again.
+// The first surface of many atoms takes long; balls are shown at once, and never again.
 TEST(LivePictures, ManyAtomsAreBallsUntilTheirSurfaceIsThere) {
   const TemporaryFolder folder;
   const auto begin = [&](int side) {
@@ -72,7 +72,7 @@ TEST(LivePictures, ManyAtomsAreBallsUntilTheirSurfaceIsThere) {
   ASSERT_EQ(balls.size(), 4u * 160 * 120);
   EXPECT_EQ(live.at_once(), Quality::draft);
   ASSERT_TRUE(live.draw(Quality::plain, nothing_waits));
-  // They are where the surface of such atoms is.
+  // The balls are where the surface of these atoms is.
   const std::vector<std::uint8_t> surface = many->rgba();
   ASSERT_EQ(surface.size(), balls.size());
   std::size_t shown = 0, differ = 0;
@@ -99,7 +99,7 @@ TEST(LiveFigures, TheirSurfaceIsComputedOnceAndCanBeGivenUp) {
     EXPECT_TRUE(session.apply(nlohmann::json::parse(command))["ok"]) << command;
     stages = 0;
     EXPECT_TRUE(session.figure([&] { return ++stages == 0; })) << command;
-    return stages - 1;  // it is asked once more at the end
+    return stages - 1;  // the last call is at the end
   };
   const std::uint64_t first = session.figure_revision();
   EXPECT_GT(stages_after(R"({"command":"orbit","dx":0.1,"dy":0})"), 3);
@@ -119,7 +119,7 @@ TEST(LiveFigures, TheirSurfaceIsComputedOnceAndCanBeGivenUp) {
   ASSERT_TRUE(session.apply({{"command", "set"}, {"key", "surface.kind"}, {"value", "ses"}})["ok"]);
   EXPECT_FALSE(session.figure([] { return true; }));
   EXPECT_TRUE(session.figure());
-  // For another surface it is given up late, as a draft is: this one is there by then.
+  // The computation for another surface is given up late, like a draft, so this one is complete by then.
   ASSERT_TRUE(session.apply({{"command", "frame"}, {"index", 0}})["ok"]);
   EXPECT_TRUE(LiveView(session).figure([] { return Change::surface; }));
 }
@@ -138,12 +138,12 @@ TEST(LivePictures, FramesPlayInFullSizeWhenThereIsTime) {
   ASSERT_TRUE(live.apply({{"command", "orbit"}, {"dx", 0.1}, {"dy", 0.0}})["ok"]);
   EXPECT_EQ(live.at_once(), Quality::draft);
   ASSERT_TRUE(live.apply({{"command", "play"}, {"fps", 0.1}})["ok"]);
-  EXPECT_EQ(live.at_once(), Quality::draft);  // nobody knows yet how long one takes
+  EXPECT_EQ(live.at_once(), Quality::draft);  // it is not known yet how long one takes
   ASSERT_TRUE(live.apply({{"command", "next_frame"}})["ok"]);
   ASSERT_TRUE(live.draw(live.at_once(), nothing_waits));
   EXPECT_EQ(live.at_once(), Quality::plain);
   EXPECT_EQ(live.due(LiveView::Clock::now()), Quality::plain);
-  // 240 frames a second of pictures that take as long as a slow machine's.
+  // At 240 frames per second, these pictures take as long as those of a slow machine.
   ASSERT_TRUE(live.apply({{"command", "play"}, {"fps", 240.0}})["ok"]);
   ASSERT_TRUE(live.apply({{"command", "next_frame"}})["ok"]);
   ASSERT_TRUE(live.draw(Quality::plain, [] {
@@ -155,7 +155,7 @@ TEST(LivePictures, FramesPlayInFullSizeWhenThereIsTime) {
   EXPECT_EQ(live.at_once(), Quality::draft);
 }
 
-// What moves never costs a draft; what makes it worthless does, when it takes long.
+// Motion never stops a draft; a change that makes it worthless does, if the draft takes long.
 TEST(LivePictures, DraftsAreGivenUpForOtherSurfacesOnly) {
   const TemporaryFolder folder;
   PreviewState view;

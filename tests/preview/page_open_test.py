@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Molecules that a person drops on the page, chooses, or has fetched by their code. Arguments as of page_case.py."""
+"""Molecules that a user drops on the page, chooses, or fetches by their code. page_case.py describes the arguments."""
 
 import base64
 import json
@@ -28,7 +28,7 @@ ATOM 1 C CA GLY A 1 0.0 0.0 0.0
 ATOM 2 C C GLY A 1 1.5 0.0 0.0
 """
 
-# Drops files, {name: text}, on an element; a folder is one that cannot be read.
+# Drops files, {name: text}, on an element; a folder is a file that cannot be read.
 DROP = """((selector, files) => {
   const data = new DataTransfer();
   for (const [name, text] of Object.entries(files)) data.items.add(new File([text], name));
@@ -128,7 +128,8 @@ class Open(PageCase):
             await other.until("!document.getElementById('role').hidden")
 
     async def fetched(self, page, answers):
-        """Answers for the bank; the addresses that the page asks for are listed. answers: by code, a status or a text; none: no network."""
+        """Answers for the bank, and returns the requested addresses. answers: status or text by code; none: no
+        network."""
         addresses = []
 
         async def answer(parameters):

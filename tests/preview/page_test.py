@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The preview's page in headless Chromium, used as a person would: arguments PROGRAM CHROMIUM SESSION."""
+"""Uses the preview's page in headless Chromium like a person: arguments PROGRAM CHROMIUM SESSION."""
 
 import asyncio
 import json
@@ -16,7 +16,7 @@ import unittest
 from browser import Browser
 from page_case import CHROMIUM, MOLECULE, PROGRAM, SESSION, SIZE, PageCase
 
-# Text of a file must never become markup: this one's chain and residue names try to.
+# Text of a file must never become markup, although the names of this chain and residue are markup.
 HOSTILE = """data_x
 loop_
 _atom_site.group_PDB
@@ -38,14 +38,14 @@ ATOM 3 C C2 . '<img/src=x/onerror=alert(1)>' '<b>' 1 2.0 0.0 0.0 2
 
 
 def same_pixels(a, b):
-    """All but one in 200 pixels, which may differ by one step of 255: the page's picture becomes sRGB on the GPU."""
+    """Compares 199 of 200 pixels, which may differ by one step of 255: the page converts to sRGB on the GPU."""
     limits = ["-warn", "1", "-fail", "1e-6", "-failpercent", "0.5", "-hardfail", "0.004"]
     return subprocess.run(["idiff", "-q", *limits, a, b], capture_output=True).returncode == 0
 
 
 class Page(PageCase):
     async def latencies(self, page, count):
-        """Drags until the page has shown so many pictures: the milliseconds between them."""
+        """Drags until the page has shown so many pictures, and returns the milliseconds between them."""
         await page.evaluate("""window.shown = [];
             window.watcher = new MutationObserver(() => shown.push(performance.now()));
             watcher.observe(document.getElementById('picture'), {attributeFilter: ['data-state']}); 0""")
@@ -133,7 +133,7 @@ class Page(PageCase):
         self.assertGreater(min(map(float, values["look.light"].split(","))), 0.4)
 
     async def save(self, page):
-        """The picture saved here, that written by the server, and that of `meniscus render` are the same."""
+        """The picture saved here, the server's, and that of `meniscus render` are equal."""
         await page.evaluate("document.getElementById('export-name').value = 'written'; 0")
         state = await self.state(page)
         camera = self.path("camera.json")
@@ -150,7 +150,7 @@ class Page(PageCase):
         saved = await self.downloaded(page, "written.png")
         self.assertTrue(same_pixels(rendered, saved))
         self.assertTrue(same_pixels(rendered, self.path("written.png")))
-        # Both carry their scene.
+        # Both contain their scene.
         for picture in (saved, self.path("written.png")):
             subprocess.run([PROGRAM, "render", "--scene", picture, MOLECULE, "-o", self.path("again.png"), "--force"],
                            check=True, capture_output=True)
@@ -205,7 +205,7 @@ class Page(PageCase):
                 await page.until(f"document.getElementById('moment').textContent === '{frame} of 2'")
             await page.click("#play")
             await page.at_rest()
-            # A key of the camera at this frame, which is then none at the other.
+            # This frame has a key of the camera, which is then the only one.
             self.assertTrue(await page.evaluate("document.getElementById('save-path').disabled"))
             await page.click("#key")
             await page.until("document.getElementById('key').textContent === 'Remove key'")
@@ -251,7 +251,7 @@ class Page(PageCase):
             self.assertEqual(state["values"]["surface.clip"], ["depth>0.3"])
             self.assertTrue(state["values"]["legend.shown"])
             await self.shoot(page, "figure.png")
-            # What is shown, what is written, and what the command makes are one picture.
+            # The shown picture, the written one, and the command's are equal.
             await page.click("#copy-command")
             words = await page.until("document.getElementById('command-text').value")
             await page.click("#save")
@@ -259,12 +259,12 @@ class Page(PageCase):
             subprocess.run(["sh", "-c", words.replace("meniscus", PROGRAM, 1) + " -o made.png"], check=True,
                            capture_output=True, cwd=self.folder.name)
             self.assertTrue(same_pixels(self.path("made.png"), saved))
-            # A chip takes its thing away, and undo brings it back.
+            # The button of a chip removes its object, and undo restores it.
             await page.click("#chips li:first-child .remove")
             self.assertEqual(len(await self.chips(page, 2)), 2)
             await page.click("#undo")
             self.assertEqual((await self.chips(page, 3))[0], "cartoon: chain C")
-            # A click of the middle button centres, a kept view comes back.
+            # A click of the middle button centres, and a kept view returns.
             await page.evaluate("document.getElementById('view-name').value = 'front'; "
                                 "document.getElementById('view-form').requestSubmit(); 0")
             await page.until("document.querySelector('#kept-views .recall')?.textContent === 'front'")
@@ -331,14 +331,14 @@ class Page(PageCase):
             self.assertEqual(radii[-1], 2)
             self.assertGreater(len([radius for radius in radii if 1 < radius < 2]), 3, radii)
             await self.shoot(page, "film.png")
-            # An edit while it plays pauses it, and stays.
+            # An edit while it plays pauses it, and remains.
             await page.click("#play-strip")
             await page.until("document.getElementById('play-strip').textContent === 'Pause film'")
             await page.evaluate("""var slider = document.getElementById('look-light_strength'); slider.value = slider.max;
                 slider.dispatchEvent(new Event('input')); 0""")
             await page.until("document.getElementById('play-strip').textContent === 'Play film'")
             self.assertEqual((await self.state(page))["values"]["look.light_strength"], await page.evaluate("slider.valueAsNumber"))
-            # The film is written, and comes by a click on its link.
+            # The film is written, and a click on its link downloads it.
             await page.evaluate("""document.getElementById('width').value = 64; document.getElementById('height').value = 48;
                 document.getElementById('export-samples').value = 1; 0""")
             await page.click("#writers [value=film]")
@@ -366,7 +366,7 @@ class Page(PageCase):
             await page.click("#surface-shown")
             state = await self.state(page)
             self.assertFalse(state["values"]["surface.shown"])
-            # Its atoms have no part of the molecule's surface, and nobody waits for one.
+            # Its atoms have no part of the molecule's surface, so no area is computed.
             x, y = await page.evaluate("(({width, height}) => [width / 2, height / 2])"
                                        "(document.getElementById('stage').getBoundingClientRect())")
             await page.drag([(x, y), (x, y)])
@@ -375,7 +375,7 @@ class Page(PageCase):
             self.assertEqual(state["values"]["figure.object"], [{"representation": "surface", "selection": "chain C", "opacity": 0.5,
                                                                  "clip": "depth>0.4"}])
             await self.shoot(page, "objects.png")
-            # The scene that is saved opens again, after all of it was undone.
+            # The saved scene opens again after everything was undone.
             await page.click("#writers button[value=scene]")
             await page.until("document.getElementById('message').textContent.includes('Written')")
             with open(self.path("figure.json")) as file:
@@ -392,7 +392,7 @@ class Page(PageCase):
             for key in ("figure.object", "surface.shown"):
                 self.assertEqual(opened["values"][key], state["values"][key])
             self.assertEqual(opened["camera"], state["camera"])
-            # A large export is told of, does not stand in the way, and can be cancelled.
+            # A large export is reported, does not block the page, and can be cancelled.
             await page.evaluate("""document.getElementById('width').value = 3000;
                 document.getElementById('height').value = 3000;
                 document.getElementById('export-samples').value = 1024; 0""")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands of a preview session: what they answer, what they change, and that a bad one changes nothing.
+// Commands of a preview session: their replies, their changes, and errors that change nothing.
 #include "app/preview/session.h"
 
 #include <chrono>
@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// On the CPU and on GL.
+/// A session on the CPU or on GL.
 class PreviewSessionTest : public ::testing::TestWithParam<const char*> {
  protected:
   PreviewSessionTest() {
@@ -156,7 +156,7 @@ TEST_P(PreviewSessionTest, DraftsAreHalfTheSize) {
   EXPECT_GT(apply(R"({"command":"stats"})")["fps"], 0.0);
 }
 
-// Five spheres through one point; with a probe of 0.5 Å only grown radii tell them apart. The arcs of a view close
+// Five spheres pass through one point; with a probe of 0.5 Å only grown radii separate them. The arcs of a view close
 // without that.
 TEST_P(PreviewSessionTest, StatsTellByHowMuchRadiiGrew) {
   session_->render(Quality::full);
@@ -253,7 +253,7 @@ TEST_P(PreviewSessionTest, AnAreaThatIsNotWaitedForComesLater) {
   EXPECT_EQ(apply(R"({"command":"pick","x":40,"y":30,"wait":false})"), later);
 }
 
-// Of a surface that nobody has, a mouse that rests begins none: only a click does.
+// A resting mouse begins no surface that no one has requested; only a click does.
 TEST_P(PreviewSessionTest, AMouseAtRestHasNoSurfaceComputedForIt) {
   const auto pick = [&](bool clicked) {
     return session_->apply({{"command", "pick"}, {"x", 40}, {"y", 30}, {"wait", false}, {"area", clicked}});

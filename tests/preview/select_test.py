@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Working by hand in the preview: clicks that select, the list of contents, the sequence, and what a card offers.
-
-Arguments as of page_case.py. With MENISCUS_SCREENSHOTS=FOLDER pictures are left there."""
+"""Work by hand in the preview: clicks that select, the list of contents, the sequence, and the actions of a card.
+page_case.py describes the arguments. With MENISCUS_SCREENSHOTS=FOLDER pictures are left there."""
 
 import asyncio
 import json
@@ -19,14 +18,14 @@ LARGE, PHONE = (1400, 900), (390, 844)
 
 class Selecting(PageCase):
     async def click(self, page, x, y, count=1, shift=False):
-        await asyncio.sleep(0.45)  # or it would go on with the clicks of before
+        await asyncio.sleep(0.45)  # otherwise the click would continue the previous series
         await page.mouse("mouseMoved", x, y)
         for n in range(1, count + 1):
             for kind in ("mousePressed", "mouseReleased"):
                 await page.mouse(kind, x, y, button="left", clickCount=n, modifiers=8 if shift else 0)
 
     async def press_button(self, page, words):
-        """A click on the middle of a button, as a mouse makes it."""
+        """Clicks the middle of a button like a mouse."""
         script = ("(() => { const b = [...document.querySelectorAll('button')].find((b) => b.checkVisibility() && "
                   f"b.textContent.startsWith({json.dumps(words)})); if (!b) return null; b.scrollIntoView({{block: 'nearest'}}); "
                   "const r = b.getBoundingClientRect(); return [r.left + r.width / 2, r.top + r.height / 2]; })()")
@@ -69,7 +68,7 @@ class Selecting(PageCase):
             atom = await page.until("document.getElementById('atoms').value")
             self.assertRegex(atom, r"^chain [AB] and resid \d+ and resname [A-Z]{3} and name \w+$")
             residue = atom[:atom.index(" and name")]
-            # The server is asked for the letters of the chain, so they come after the selection.
+            # The server sends the letters of the chain, so they come after the selection.
             await page.until("document.querySelectorAll('#letters [aria-pressed=true]').length === 1")
             await self.click(page, x, y, 2)
             await self.selected(page, residue)
@@ -78,9 +77,9 @@ class Selecting(PageCase):
             await self.selected(page, residue[:7] + " and polymer")
             await page.until("document.querySelectorAll('#letters [aria-pressed=true]').length === 99")
             self.assertEqual(await page.evaluate("document.querySelectorAll('#entries .recall[aria-pressed=true]').length"), 1)
-            # Rings are where the atoms are: in the picture of the chain, not far from its pixels.
+            # Rings are at the atoms: in the picture of the chain, near its pixels.
             await page.until("document.querySelectorAll('#rings circle').length > 100")
-            # Shift adds, and takes away again.
+            # Shift adds atoms, and removes them again.
             await self.click(page, x, y)
             await self.selected(page, atom)
             await self.click(page, x - 200, y, shift=True)
@@ -88,7 +87,7 @@ class Selecting(PageCase):
             await page.until("document.querySelectorAll('#rings circle').length === 2")
             await self.click(page, x - 200, y, shift=True)
             await self.selected(page, atom)
-            # A click beside everything and Escape select nothing.
+            # A click on the background and Escape select nothing.
             await self.click(page, 30, 30)
             await self.selected(page, "")
             self.assertTrue(await page.evaluate("document.getElementById('card').hidden"))
@@ -99,7 +98,7 @@ class Selecting(PageCase):
             self.assertEqual(page.complaints, [])
 
     async def test_the_ring_of_an_atom_is_at_its_sphere(self):
-        """An atom alone: its ring is in the middle of the picture, however the view is turned and whatever the legend."""
+        """The ring of a single atom is in the middle of the picture, whatever the view and the legend."""
         path = self.path("one.pdb")
         with open(path, "w") as file:
             file.write("HETATM    1  C1  LIG A   1      10.000  20.000  30.000  1.00  0.00           C\n"
@@ -111,7 +110,7 @@ class Selecting(PageCase):
                 await page.until("document.querySelectorAll('#rings circle').length === 1")
                 for _ in range(2):
                     await page.at_rest()
-                    # The middle of the pixels of its colour.
+                    # The script returns the distance from the middle of the pixels of its colour.
                     off, count = await page.evaluate("""(() => {
                         const canvas = document.getElementById('pictures'), {width, height} = canvas;
                         const {data} = canvas.getContext('2d').getImageData(0, 0, width, height);
@@ -174,7 +173,7 @@ class Selecting(PageCase):
             await page.evaluate("""(() => { const c = document.querySelector("[aria-label='Colour of Chain A']");
                 c.value = '#aa3377'; c.dispatchEvent(new Event('change')); })()""")
             await page.until("document.querySelector(\"[aria-label='Colour of Chain A']\").value === '#aa3377'")
-            # Two residues: the distance is that of their nearest atoms.
+            # The distance of two residues is that of their nearest atoms.
             await self.press_button(page, "Chain A")
             await page.until("document.querySelectorAll('#letters button').length === 99")
             await page.evaluate("(() => { const b = document.querySelectorAll('#letters button'); b[24].click(); "

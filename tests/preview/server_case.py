@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A preview of five atoms and its visitors: the first argument is PROGRAM."""
+"""A preview of five atoms and its clients: the first argument is PROGRAM."""
 
 import asyncio
 import http.client

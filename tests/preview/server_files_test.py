@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the preview server writes and lets browsers download, and how it begins and opens a browser: argument PROGRAM."""
+"""Files that the preview server writes and lets browsers download, and how it opens a browser: argument PROGRAM."""
 
 import asyncio
 import http.client
@@ -119,7 +119,7 @@ def until(holds, seconds=30):
 
 
 class Opening(unittest.TestCase):
-    """What is opened, by programs that stand for browsers and write down their arguments."""
+    """Tests what is opened, with programs that replace browsers and write down their arguments."""
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -132,7 +132,7 @@ class Opening(unittest.TestCase):
         return os.path.join(self.folder.name, name)
 
     def stub(self, name, more=""):
-        """A program that writes its number, its session's and its arguments, and then does `more`."""
+        """Makes a program that writes its number, its session's and its arguments, and then does `more`."""
         with open(self.path(name), "w") as file:
             file.write("#!/bin/sh\n(echo $$ $(ps -o sid= -p $$); printf '%s\\n' \"$0\" \"$@\") >"
                        f"'{self.opened}.part'\nmv '{self.opened}.part' '{self.opened}'\n{more}\n")
@@ -140,7 +140,7 @@ class Opening(unittest.TestCase):
         return self.path(name)
 
     def start(self, *arguments, **environment):
-        """The preview, its address and its port. environment: in place of what would name a browser or a display."""
+        """Starts the preview; returns it, its address and port. environment: variables for a browser or a display."""
         plain = {name: value for name, value in os.environ.items() if name not in ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY")}
         process = subprocess.Popen([PROGRAM, "preview", self.file, "--output-dir", self.folder.name, *arguments],
                                    env={**plain, **environment}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -159,7 +159,7 @@ class Opening(unittest.TestCase):
         return answer.status, answer.getheader("Location"), answer.read()
 
     def said(self, process, sentence):
-        """Ends the preview once it has said this on standard error; what it said until then."""
+        """Ends the preview after it has written this to standard error; returns the text until then."""
         text = ""
         while sentence not in text:
             line = process.stderr.readline()
@@ -240,7 +240,7 @@ class Opening(unittest.TestCase):
         self.assertEqual(signals["SigIgn"] & (1 << (signal.SIGPIPE - 1) | 1 << (signal.SIGXFSZ - 1)), 0)
         os.killpg(process.pid, signal.SIGINT)
         self.assertEqual(process.wait(30), 130)
-        os.kill(number, 0)  # it is there
+        os.kill(number, 0)  # the process exists
         with self.assertRaises(ConnectionRefusedError):
             socket.create_connection(("127.0.0.1", self.port))
 

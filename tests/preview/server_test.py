@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The preview server against visitors it must refuse or endure: arguments PROGRAM PAGE_FOLDER."""
+"""The preview server refuses or endures difficult clients: arguments PROGRAM PAGE_FOLDER."""
 
 import asyncio
 import http.client
@@ -102,14 +102,14 @@ class Server(ServerCase):
                 self.assertTrue(reply["error"].startswith(command["command"] + ": "), reply)
 
     async def test_page_and_program_speak_of_the_same_things(self):
-        """Every command that the page sends exists, and every key that it receives is read; scripts and tests use the rest."""
+        """Every command that the page sends exists, and every key that it receives is read or used by tests."""
         page = {name: open(os.path.join(PAGE, name)).read() for name in os.listdir(PAGE) if name.endswith(".js")}
         whole = "\n".join(page.values())
         with open(os.path.join(PAGE, "../../commands.md")) as file:
             rows = re.findall(r"^\| (`[a-z_]+`(?:, `[a-z_]+`)*) \|", file.read(), re.MULTILINE)
         commands = set(re.findall("[a-z_]+", " ".join(rows)))
         sent = set(re.findall(r'"([a-z_]+)"', " ".join(re.findall(r"\b(?:command\(|command: )[^,)}]*", whole))))
-        sent |= {"undo", "redo"}  # named by a variable
+        sent |= {"undo", "redo"}  # a variable names these
         self.assertEqual((sent - commands, commands - sent), (set(), {"orbit", "next_frame", "quit", "scene", "stats"}))
         async with self.preview.socket() as client:
             choices = await ask(client, {"command": "choices"})
@@ -152,7 +152,7 @@ class Server(ServerCase):
             pass
 
     async def test_a_proxy_is_trusted_by_its_name_and_no_other(self):
-        """What jupyter-server-proxy 4 sends: Host and Origin of the page that the user sees, behind http or https."""
+        """jupyter-server-proxy 4 sends Host and Origin of the page that the user sees, with http or https."""
         self.preview = self.serve("--size", "64x48", "--trust-host", "hub.example.org", "--trust-host", "localhost:8888")
         for host in ("hub.example.org", "localhost:8888", f"127.0.0.1:{self.preview.port}"):
             self.assertEqual(self.get(Host=host)[0], 200, host)
@@ -176,7 +176,7 @@ class Server(ServerCase):
             self.assertIn("a host is a name", result.stderr)
 
     def test_names_of_others_stay_refused_at_every_address(self):
-        """In a container it listens everywhere; a name that someone's DNS points there (rebinding) is still none of ours."""
+        """In a container the server listens everywhere; foreign names of it (DNS rebinding) are still refused."""
         own = Preview(PROGRAM, self.file, "--output-dir", self.folder.name, port="0.0.0.0:0")
         self.addCleanup(own.end)
         self.preview = own
@@ -209,7 +209,7 @@ class Server(ServerCase):
         for nonsense in ("", "{", "[]", "7", '"state"', "[" * 4000, '{"command":"state"', '{"id":3}'):
             await client.send(nonsense)
             self.assertFalse((await receive(client, lambda m: "ok" in m))["ok"], nonsense)
-        await client.send(b"\0\1\2")  # no text: passed over
+        await client.send(b"\0\1\2")  # not a text: ignored
         self.assertTrue((await ask(client, {"command": "state"}))["ok"])
         await client.send(json.dumps({"command": "state", "id": "x" * 5000}))
         with self.assertRaises(websockets.exceptions.ConnectionClosed) as caught:
@@ -227,7 +227,7 @@ class Server(ServerCase):
         await self.refused(503)
         async def role(client):
             while "controls" not in (message := json.loads(await client.recv())):
-                pass  # how far the file is read
+                pass  # messages about the progress of reading
             return message["controls"]
         roles = [await role(client) for client in clients]
         self.assertEqual(roles, [True, False, False, False])
@@ -306,7 +306,7 @@ class Server(ServerCase):
     async def test_the_first_picture_is_a_draft_of_the_size_that_was_asked_for(self):
         async with self.preview.socket() as client:
             await ask(client, {"command": "resize", "width": 90, "height": 70})
-            await asyncio.sleep(0.6)  # however late it is asked for
+            await asyncio.sleep(0.6)  # however late the page asks for it
             message, _ = await picture(client)
             self.assertFalse(message["full"])
             self.assertEqual((message["state"]["width"], message["stats"]["width"]), (90, 45))
@@ -322,7 +322,7 @@ class Server(ServerCase):
             told = await ask(other, {"command": "export_state"})
             self.assertTrue(told["running"], told)
             self.assertTrue(told["path"].endswith("large.png"))
-        self.assertEqual(self.preview.end()[0], 143)  # which ends the export, too
+        self.assertEqual(self.preview.end()[0], 143)  # the end of the preview also ends the export
         self.assertEqual(os.listdir(self.folder.name), ["five.pdb"])
 
     async def test_drags_in_a_hurry_become_one(self):

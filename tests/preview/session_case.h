@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A session of the preview that draws on the CPU, and ways to talk to it.
+// A session of the preview that draws on the CPU, and functions to use it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace meniscus::test {
 
 using Json = nlohmann::json;
 
-/// Returns what reads a file again with the atoms that are drawn beside its surface.
+/// Returns a function that reads a file again with the atoms that are drawn next to its surface.
 inline ReadShown reader_of(const std::string& file, const ReadOptions& reading) {
   return [file, reading](const FigureRequest& figure, std::size_t) {
     ReadOptions shown = reading;
@@ -31,7 +31,7 @@ inline ReadShown reader_of(const std::string& file, const ReadOptions& reading) 
 
 class SessionCase : public ::testing::Test {
  protected:
-  /// Pictures have 80 x 60 pixels.
+  /// Begins a session whose pictures have 80 x 60 pixels.
   void begin(Structure structure, const SessionContext& context = {}, PreviewState view = {}) {
     view.size = {80, 60};
     session_ = std::make_unique<PreviewSession>(make_cpu_preview_renderer(), std::move(structure), view, std::nullopt,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The list of contents and its selections, where atoms are, and atoms that are hidden, shown again and looked into.
+// The list of contents and its selections, the places of atoms, and atoms that are hidden, shown again and looked into.
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -14,7 +14,7 @@ namespace meniscus::test {
 namespace {
 
 // Chain A has an insertion code, a number below 0 and a modified residue; a sugar, a ligand and two ions are in other
-// chains, of which one has a name that is a keyword and one has none; and there are waters.
+// chains, one of which has a keyword as its name, and one no name; and there are waters.
 constexpr std::string_view kMany = R"(ATOM      1  N   ALA A  -1       0.000   0.000   0.000  1.00 10.00           N
 ATOM      2  CA  ALA A  -1       1.458   0.000   0.000  1.00 20.00           C
 ATOM      3  C   ALA A  -1       2.009   1.420   0.000  1.00 30.00           C
@@ -117,7 +117,7 @@ TEST_F(ContentsSession, HidesAndShowsAgain) {
   expect_ok(R"({"command":"take_away","selection":"chain A and polymer"})");
   EXPECT_EQ(entry("Chain A")["shown"], 0);
   EXPECT_EQ(values()["surface.show"], "all and not (chain A and polymer)");
-  // The last part of the surface that is shown: only what stands beside it stays.
+  // The last shown part of the surface is hidden: only the objects next to it remain.
   expect_ok(R"({"command":"take_away","selection":"chain B and polymer"})");
   EXPECT_EQ(entry("Chain B")["shown"], 0);
   EXPECT_EQ(values()["surface.shown"], false);
@@ -127,7 +127,7 @@ TEST_F(ContentsSession, HidesAndShowsAgain) {
   expect_ok(R"({"command":"bring_back","selection":"chain A and polymer"})");
   EXPECT_EQ(values()["surface.show"], nullptr);
   EXPECT_EQ(entry("Chain A")["shown"], 8);
-  // Companions of the surface go one by one.
+  // Companions of the surface are hidden one by one.
   const std::string zinc = R"json("selection":"chain \"\" and resid 302 and resname ZN"})json";
   EXPECT_EQ(entry("ZN 302")["shown"], 1);
   expect_ok(R"({"command":"take_away",)" + zinc);
@@ -165,8 +165,8 @@ TEST_F(ContentsSession, LooksInto) {
   EXPECT_EQ(reply["atoms"], 2) << reply;
   EXPECT_EQ(values()["surface.clip"], Json::parse(R"json(["before first (resname \"ION\")"])json"));
   EXPECT_EQ(state()["camera"]["position"][2], 77.0);
-  EXPECT_TRUE(values()["figure.object"].empty());  // it is drawn already
-  // Another place: one cut, and the residue of the surface is drawn inside it.
+  EXPECT_TRUE(values()["figure.object"].empty());  // the object is drawn already
+  // At another place there is one cut, and the residue of the surface is drawn inside it.
   expect_ok(R"({"command":"look_into","selection":"resid 5A"})");
   EXPECT_EQ(values()["surface.clip"], Json::parse(R"json(["before first (resid 5A)"])json"));
   EXPECT_EQ(values()["figure.object"][0]["representation"], "sticks");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Copies of one surface in a session: drawn, picked, kept apart, exported.
+// Copies of one surface in a session are drawn, picked, kept apart and exported.
 #include <memory>
 #include <numbers>
 #include <string>
@@ -37,7 +37,7 @@ PreviewState view_of_copies() {
   return view;
 }
 
-// On the CPU, and by what draws atoms.
+// The test runs on the CPU, and with a renderer that draws atoms.
 TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
   const TemporaryFolder folder;
   for (const bool placed : {false, true}) {
@@ -51,7 +51,7 @@ TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
     EXPECT_EQ(state["atoms"], 4);
     EXPECT_EQ(state["copies"], 3);
     ASSERT_TRUE(session.render(Quality::full));
-    // Where the camera sees an atom of a copy that is what a pick finds.
+    // A pick where the camera sees an atom of a copy finds this atom.
     const Camera camera = session.state().camera;
     const auto pick_at = [&](const glm::dvec3& point) {
       const ViewBasis basis = view_basis(camera);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exports of a session: beside the pictures, to be cancelled, and under names that say what they are.
+// Exports of a session run while pictures are drawn, can be cancelled, and have names with the right endings.
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -26,7 +26,7 @@ class SessionExports : public SessionCase {
   }
 };
 
-// Even with "force" no file of another kind is replaced.
+// Even "force" never replaces a file of another kind.
 TEST_F(SessionExports, EndWhatTheirFormatEndsIn) {
   const std::map<std::string, std::vector<std::string>> allowed{
       {"png", {"p.png", "p.tif", "p.exr"}}, {"povray", {"p"}},   {"blender", {"p.mns"}}, {"camera", {"p.json"}},
@@ -34,7 +34,7 @@ TEST_F(SessionExports, EndWhatTheirFormatEndsIn) {
   const std::vector<std::string> names{"p",        "p.png",   "p.tif",     "p.exr",     "p.mns",      "p.json", "p.pdb",
                                        "p.py",     "p.jsonl", "p.mns.bak", "p.png.mns", "p.json.png", "p.sh",   "png",
                                        "view.ini", "mns",     "notes.txt", "p.JSON",    "p.mnss"};
-  apply(R"({"command":"key"})");  // a path of the camera has some
+  apply(R"({"command":"key"})");  // a path of the camera needs a key
   for (const auto& [format, good] : allowed) {
     for (const std::string& name : names) {
       SCOPED_TRACE(::testing::Message() << format << " " << name);
@@ -48,7 +48,7 @@ TEST_F(SessionExports, EndWhatTheirFormatEndsIn) {
       Json command{{"command", format == "save" ? "save" : "export"}, {"path", name}, {"force", true}};
       if (format != "save") command["format"] = format;
       if (format == "png") command.update({{"width", 20}, {"height", 20}, {"samples", 1}});
-      if (format == "povray" && fits) std::filesystem::remove(file);  // a folder, which takes no file's place
+      if (format == "povray" && fits) std::filesystem::remove(file);  // a scene is a folder, which replaces no file
       const Json reply = session_->apply(command);
       EXPECT_EQ(reply["ok"], fits) << reply;
       if (!fits) {
@@ -60,7 +60,7 @@ TEST_F(SessionExports, EndWhatTheirFormatEndsIn) {
       std::filesystem::remove_all(file);
     }
   }
-  // A folder that holds something else keeps it, and a file is not a folder.
+  // A folder with other files keeps them, and a file is not a folder.
   std::filesystem::create_directory(folder_.path() / "work");
   const std::string mine = folder_.file("work/mine.txt", "precious");
   expect_ok(R"({"command":"export","format":"povray","path":"work","force":true})");
@@ -70,7 +70,7 @@ TEST_F(SessionExports, EndWhatTheirFormatEndsIn) {
   EXPECT_EQ(read_bytes(plain), "precious");
 }
 
-// What a file has, or a log, is not lost with the session.
+// A figure in a file or in a log is not lost with the session.
 TEST_F(SessionExports, TellWhatIsNotSaved) {
   const auto unsaved = [&] { return apply(R"({"command":"state"})")["unsaved"].get<bool>(); };
   EXPECT_FALSE(unsaved());
@@ -124,7 +124,7 @@ TEST_F(SessionExports, AnExportIsMadeBesideThePicturesAndCanBeCancelled) {
   EXPECT_NE(ended.value("error", std::string()).find("cancelled"), std::string::npos) << ended;
   EXPECT_FALSE(apply(R"({"command":"cancel_export"})")["ok"]);
   EXPECT_EQ(folder_.entries(), std::vector<std::string>{"two.pdb"});
-  // The next one comes to its end, with the view as it was when it was asked for.
+  // The next export finishes, with the view at the time of its request.
   expect_ok(R"({"command":"export","format":"png","path":"small.png","wait":false})");
   const Json done = wait_until([](const Json& now) { return now["running"] == false; });
   EXPECT_NE(done.value("path", std::string()).find("small.png"), std::string::npos);
@@ -132,7 +132,7 @@ TEST_F(SessionExports, AnExportIsMadeBesideThePicturesAndCanBeCancelled) {
   EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"small.png", "two.pdb"}));
 }
 
-// Browsers may have these files, and no others.
+// Browsers may download these files, and no others.
 TEST_F(SessionExports, ListWhatTheyHaveWritten) {
   folder_.file("foreign.png", "precious");
   const auto names = [&] {
@@ -159,7 +159,7 @@ TEST_F(SessionExports, ListWhatTheyHaveWritten) {
   EXPECT_EQ(archive.find("mine.txt"), std::string::npos) << "which the session did not write";
 }
 
-// A film of the strip is made by `meniscus film` of the scenes as `save` writes them.
+// `meniscus film` makes a film of the strip from the scenes that `save` writes.
 TEST_F(SessionExports, AFilmOfTheStripIsAStoryboard) {
   FilmOrder ordered;
   SessionContext context;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands that change what a figure shows, what they refuse, and undo and redo of them.
+// Commands that change a figure, their errors, and undo and redo of them.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -18,7 +18,7 @@ class FigureSession : public PeptideSession {
  protected:
   using PeptideSession::PeptideSession;
 
-  /// The state without what every command changes.
+  /// Returns the state without the values that every command changes.
   Json state() {
     Json state = SessionCase::state();
     for (const char* key : {"revision", "undo", "redo", "drawn_by"}) state.erase(key);
@@ -74,7 +74,7 @@ TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
     expect_ok(edit);
     if (Json::parse(edit)["command"] == "resize") {
       states.back() = state();
-      pictures.back() = picture();  // not undone: it is the page's
+      pictures.back() = picture();  // the page's size is not undone
       continue;
     }
     states.push_back(state());
@@ -86,7 +86,7 @@ TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
   for (std::size_t n = states.size() - 1; n-- > 0;) {
     expect_ok(R"({"command":"undo"})");
     Json expected = states[n];
-    expected["width"] = 400;  // whatever the page was then
+    expected["width"] = 400;  // the size of the page at that time
     expected["height"] = 300;
     Json now = state();
     for (Json* json : {&expected, &now}) {
@@ -116,7 +116,7 @@ TEST_F(FigureSession, ADragIsOneStepUntilItIsEnded) {
   EXPECT_EQ(state(), first);
   expect_ok(R"({"command":"undo"})");
   EXPECT_EQ(state(), before);
-  // Something new forgets what was undone.
+  // A new command clears the redo history.
   expect_ok(R"({"command":"set","key":"surface.probe","value":1})");
   expect_ok(R"({"command":"set","key":"surface.probe","value":1.1})");
   const Json after = apply(R"({"command":"state"})");
@@ -230,7 +230,7 @@ TEST_F(FigureSession, TheLegendStandsBesideTheMolecule) {
   EXPECT_EQ(session_->picture_size(), glm::ivec2(200, 150));
   EXPECT_EQ(session_->rgba().size(), 4u * 200 * 150);
   EXPECT_FALSE(apply(R"({"command":"pick","x":399,"y":150})")["hit"]) << "nothing is there but letters";
-  // Too small for it: the picture is drawn without, and the state says why.
+  // The window is too small for it: the picture is drawn without it, and the state has the reason.
   expect_ok(R"({"command":"resize","width":20,"height":20})");
   EXPECT_FALSE(state()["legend_fault"].get<std::string>().empty());
   EXPECT_TRUE(session_->render(Quality::full));
@@ -269,7 +269,7 @@ TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0],
             Json::parse(R"({"representation":"surface","selection":"ligand","color":"#ffd700","specular":0.8})"));
-  // The ligand is not an atom of the surface, yet it is picked.
+  // A ligand that is not an atom of the surface can be picked.
   expect_ok(R"({"command":"set","key":"surface.shown","value":false})");
   expect_ok(R"({"command":"zoom_to","selection":"ligand"})");
   const Json pick = apply(R"({"command":"pick","x":40,"y":30})");
@@ -277,7 +277,7 @@ TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {
   EXPECT_EQ(pick["residue"], "LIG");
   EXPECT_NE(pick["kind"], "shape") << pick;
   EXPECT_TRUE(pick["exposed_area"].is_null()) << "not of the molecule's surface";
-  // A slider is one step, and merges on its way.
+  // Movements of a slider are one step, and merge on their way.
   expect_ok(R"({"command":"end_step"})");
   const auto slid = [](const char* opacity, int index) {
     return Json{{"command", "set"},
@@ -300,7 +300,7 @@ TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {
   EXPECT_FALSE(merge_commands(first, Json(first))) << "both are removed";
 }
 
-// Entries of lists are added, changed and removed by their places.
+// Entries of lists are added, changed and removed by index.
 TEST_F(FigureSession, ListsHaveEntries) {
   const auto add = [&](const char* key, const Json& value) {
     return session_->apply({{"command", "add"}, {"key", key}, {"value", value}});
@@ -350,7 +350,7 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
   refused(R"({"command":"open","path":"fig.json"})", "scenes");
 }
 
-// What comes beside the surface turns nothing, and a later change of the size neither.
+// Objects next to the surface do not turn the molecule, nor does a later change of the size.
 TEST_F(FigureSession, ShapesBesideTheSurfaceDoNotTurnTheMolecule) {
   const Json before = apply(R"({"command":"state"})")["camera"];
   const auto camera = [&] { return apply(R"({"command":"state"})")["camera"]; };
@@ -387,16 +387,16 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   for (const char* word : {"buried", "rmsf", "relative-accessibility", "component", "volume", "copy", "file"})
     EXPECT_FALSE(words.contains(word)) << word;
   for (const char* word : {"element", "chain", "bfactor"}) EXPECT_TRUE(words.contains(word)) << word;
-  // Of the others the reason is told.
+  // The state has the reasons for the other schemes.
   std::map<std::string, std::string> lacks;
   const Json choices = apply(R"({"command":"choices"})");
   for (const Json& scheme : choices["schemes"]) lacks[scheme["word"].get<std::string>()] = scheme.value("lacks", "");
   EXPECT_EQ(lacks["charge"], "has no partial charges to colour by");
   EXPECT_EQ(lacks["model"], "has one model");
   EXPECT_EQ(lacks["copy"], "has no copies");
-  EXPECT_EQ(lacks["plddt"], "");  // nothing speaks against it
+  EXPECT_EQ(lacks["plddt"], "");  // this scheme is available
   EXPECT_EQ(lacks["secondary"], "");
-  // An assembly has copies, and a scheme of numbers that it was begun with is there to be returned to.
+  // An assembly has copies, and the session can return to the scheme of numbers that it began with.
   Structure assembly = session_->structure();
   for (std::size_t n = 0; n < assembly.atoms.size(); ++n) assembly.atoms[n].copy = static_cast<std::uint32_t>(n % 2);
   PreviewState view;

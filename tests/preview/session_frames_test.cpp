@@ -36,7 +36,7 @@ TEST(PreviewFrames, FramesOfATrajectory) {
   PreviewSession session(make_cpu_preview_renderer(), structure, view, std::nullopt, folder.path(), moments);
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
   EXPECT_EQ(apply(R"({"command":"state"})")["frames"], 4);
-  // The first view holds all of the walk: the last place of the atom is in the picture.
+  // The first view shows the whole walk: the last place of the atom is in the picture.
   ASSERT_TRUE(apply(R"({"command":"frame","index":3})")["ok"]);
   ASSERT_TRUE(session.render(Quality::plain));
   const std::vector<std::uint8_t> with = session.rgba();
@@ -44,7 +44,7 @@ TEST(PreviewFrames, FramesOfATrajectory) {
   ASSERT_TRUE(apply(R"({"command":"frame","index":0})")["ok"]);
   ASSERT_TRUE(session.render(Quality::plain));
   EXPECT_NE(session.rgba(), with);
-  // A bad frame is an error that changes nothing; playing passes over it.
+  // A bad frame is an error that changes nothing; playing skips it.
   const Json bad = apply(R"({"command":"frame","index":2})");
   EXPECT_FALSE(bad["ok"]);
   EXPECT_NE(bad["error"].get<std::string>().find("frame 2 is damaged"), std::string::npos);
@@ -54,7 +54,7 @@ TEST(PreviewFrames, FramesOfATrajectory) {
   EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 0);
 }
 
-// Frames with other atoms each: what is drawn, coloured and counted is that of the frame.
+// If each frame has other atoms, pictures, colours and counts are those of the frame.
 TEST(PreviewFrames, AtomsThatComeAndGo) {
   const TemporaryFolder folder;
   const Structure all = read_structure(folder.file("one.pdb", kTwoModels));
@@ -93,7 +93,7 @@ TEST(PreviewFrames, KeysOfTheCamera) {
                          TrajectoryPositions{{10, 20, 30, 40}, [positions](std::size_t) { return positions; }});
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
   const char* kExport = R"({"command":"export","format":"camera_path","path":"path.json","force":true})";
-  EXPECT_FALSE(apply(kExport)["ok"]);  // none yet
+  EXPECT_FALSE(apply(kExport)["ok"]);  // there is no key yet
   ASSERT_TRUE(session.render(Quality::full));
   EXPECT_EQ(apply(R"({"command":"key"})")["keys"], 1);
   EXPECT_TRUE(session.is_drawn(Quality::full)) << "the same picture";

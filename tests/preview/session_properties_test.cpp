@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command "set": every property that the preview changes gets another value, which the state and the saved scene
-// have, which undo takes back, and of which a bad one changes nothing.
+// have, and which undo takes back; a bad value changes nothing.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -28,7 +28,7 @@ class PreviewProperties : public PeptideSession {
   }
   Json choices() { return apply(R"({"command":"choices"})")["properties"]; }
 
-  /// The texts of a property in the scene that pictures carry; empty if it has its default.
+  /// Returns the texts of a property in the scene that pictures contain; empty if it has its default.
   std::vector<std::string> saved(const std::string& key) {
     const std::string text = apply(R"({"command":"scene"})")["text"];
     std::vector<std::string> texts;
@@ -38,7 +38,7 @@ class PreviewProperties : public PeptideSession {
   }
 };
 
-/// A value that each property does not have at first, as "values" tells it, and one that is refused.
+/// For each property, a value that it does not have at first, as "values" shows it, and one that is refused.
 const std::map<std::string, std::pair<Json, Json>>& examples() {
   static const std::map<std::string, std::pair<Json, Json>> all{
       {"surface.shown", {false, "no"}},
@@ -139,7 +139,7 @@ TEST_F(PreviewProperties, AllThatAreOfferedCanBeSet) {
     const Property& property = property_of(key);
     if (key == "figure.object") {
       EXPECT_EQ(Json::parse(saved(key).at(0)), good[0]);
-    } else if (property.section() != "camera") {  // pictures carry the camera itself
+    } else if (property.section() != "camera") {  // pictures contain the camera itself
       EXPECT_EQ(saved(key), texts_of_json(property, nlohmann::ordered_json(good)));
     }
     const Json after = values();
@@ -148,8 +148,8 @@ TEST_F(PreviewProperties, AllThatAreOfferedCanBeSet) {
     expect_ok(R"({"command":"redo"})");
     EXPECT_EQ(values(), after);
     expect_ok(R"({"command":"undo"})");
-    // The value of the beginning, and null, which means the default. A width of all lines is also that of each kind,
-    // and a colour is written in one way.
+    // The first value is set, and null, which means the default. The width of all lines is also that of each kind, and
+    // a colour is written in one way.
     EXPECT_TRUE(set(key, before[key])["ok"]);
     if (key != "look.silhouettes" && key != "look.patch_line_color") {
       EXPECT_EQ(values(), before);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The strip of kept scenes: on the way numbers are those of a film, all else is that of the nearer scene.
+// The strip of kept scenes: numbers on the way are those of a film, and all else comes from the nearer scene.
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,10 +62,10 @@ TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
   }
   expect_ok(R"({"command":"strip","place":0})");
   EXPECT_EQ(picture(), first_picture);
-  expect_ok(R"({"command":"undo"})");  // all of the strip is a step
+  expect_ok(R"({"command":"undo"})");  // the whole strip is one step
   EXPECT_EQ(values()["surface.probe"], second["surface.probe"]);
 
-  // The pictures of the film one after another: 0.4 s of the first scene, 2 s of the way, 1 s of the second scene.
+  // The film shows 0.4 s of the first scene, 2 s of the way, and 1 s of the second scene.
   expect_ok(R"({"command":"time_scene","index":0,"hold":0.4})");
   expect_ok(R"({"command":"time_scene","index":1,"hold":1})");
   expect_ok(R"({"command":"strip","place":0})");
@@ -89,7 +89,7 @@ TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
   EXPECT_EQ(apply(R"({"command":"play","strip":true})")["playing"], false);
 }
 
-// What is edited while the film plays would be gone with its next picture.
+// The next picture of the film would undo an edit while it plays.
 TEST_F(StripSession, AnEditPausesTheFilm) {
   begin_with_two_frames();
   for (const char* command : {R"({"command":"keep_scene"})", R"({"command":"set","key":"surface.probe","value":2})",
@@ -131,7 +131,7 @@ TEST_F(StripSession, ScenesKeepTheirFramesAndTimes) {
     expect_ok(fmt::format(R"({{"command":"strip","place":{}}})", place));
     EXPECT_EQ(state()["frame"], frame) << place;
   }
-  // 1.5 s, a cut and 3 s at 25 pictures a second; one turn; two frames at 10 a second.
+  // The films have 1.5 s, a cut and 3 s at 25 pictures per second; one turn; two frames at 10 per second.
   const Json told = apply(R"({"command":"films","width":101,"height":60})");
   EXPECT_EQ(told["width"], 100);
   EXPECT_EQ(told["films"], Json::parse(R"([{"of":"strip","pictures":113,"seconds":4.52},

@@ -26,7 +26,7 @@ LARGE, SMALL, PHONE = {"width": 1400, "height": 900}, {"width": 900, "height": 6
 SHOTS = os.environ.get("MENISCUS_SCREENSHOTS")
 PATIENCE = 90_000  # ms
 
-# Returns what is wrong with the controls in sight: cut off, without a name, or smaller than a finger.
+# Returns faults of the visible controls: cut off, without a name, or smaller than a finger.
 FAULTS = """(least) => {
   const faults = [];
   for (const one of document.querySelectorAll("#panel :is(button, select, input, summary), #card :is(button, input)")) {
@@ -57,7 +57,7 @@ class Figures(unittest.TestCase):
         cls.addClassCleanup(cls.browser.close)
 
     def open(self, file, *options, size=SMALL):
-        """Begins a preview, and shows its page at rest. Pictures to look at are large."""
+        """Begins a preview, and shows its page at rest. Pictures for people are large."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
@@ -84,17 +84,17 @@ class Figures(unittest.TestCase):
         return json.loads(self.page.locator("#picture").get_attribute("data-state"))["values"][key]
 
     def becomes(self, key, value):
-        """Waits until a property has this value, and for the picture."""
+        """Waits until a property has this value, and for its picture."""
         self.until("([key, value]) => JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).values[key])"
                    " === JSON.stringify(value)", [key, value])
         self.rest()
 
     def has_rule(self, count=1):
-        """Waits until so many colours are painted."""
+        """Waits until so many colours are set."""
         self.until("([count]) => JSON.parse(document.getElementById('picture').dataset.state).values['surface.color'].length === 1 + count", [count])
         self.rest()
 
-    # What a user does
+    # Actions of a user
 
     def press(self, words):
         self.page.get_by_role("button", name=words, exact=True).click()
@@ -127,7 +127,7 @@ class Figures(unittest.TestCase):
         self.page.locator("#entries .recall", has_text=words).click()
 
     def color(self, label, value):
-        """Chooses a colour, as the browser's own window for colours does."""
+        """Chooses a colour, like the browser's own window for colours."""
         self.page.get_by_label(label, exact=True).fill(value)
 
     def drag(self, dx, dy):
@@ -139,7 +139,7 @@ class Figures(unittest.TestCase):
         self.rest()
 
     def written(self, button, name):
-        """Writes by a button; returns the path when the page says that it is there."""
+        """Presses a button that writes a file; returns its path when the page shows it."""
         self.press(button)
         self.page.locator("#written li", has_text=name).first.wait_for(timeout=3 * PATIENCE)
         self.page.locator("#job").wait_for(state="hidden", timeout=3 * PATIENCE)
@@ -163,7 +163,7 @@ class Figures(unittest.TestCase):
         self.open(PROTEASE, size=LARGE)
         self.assertEqual(self.page.evaluate(FAULTS, 0), [])
         self.assertGreater(self.written("Save PNG", "figure.png").stat().st_size, 10_000)
-        # All that begins a task is in sight.
+        # All controls that begin a task are visible.
         for words in ("Contents", "Surface", "Colours", "Shown", "Cut", "View", "Look", "Film"):
             self.assertTrue(self.page.locator("summary", has_text=words).first.evaluate(IN_SIGHT), words)
         self.shoot("01_default")
@@ -267,7 +267,7 @@ class Figures(unittest.TestCase):
         self.press("Label")
         self.rest()
         self.press("Distance")
-        self.page.locator("#rings text", has_text=" Å").wait_for()  # its length on the stage
+        self.page.locator("#rings text", has_text=" Å").wait_for()  # the length appears on the stage
         self.assertEqual(self.page.locator("#rings text").all_text_contents()[:2], ["ASP 25", "ILE 50"])
         self.assertEqual([label.rsplit("=", 1)[1] for label in self.value("annotations.labels")], ["ASP 25", "ILE 50"])
         self.assertEqual(self.value("figure.object")[-1]["representation"], "distance")

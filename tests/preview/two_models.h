@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Four atoms twice, for sessions of a preview.
+// Two models of four atoms, for sessions of a preview.
 #pragma once
 
 #include <string_view>
 
 namespace meniscus::test {
 
-/// Two models; the oxygen moves. Columns of PDB.
+/// Two models in PDB format; the oxygen moves.
 inline constexpr std::string_view kTwoModels = R"(MODEL        1
 ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N
 ATOM      2  CA  ALA A   1       1.458   0.000   0.000  1.00 20.00           C

@@ -19,7 +19,7 @@ from page_case import CHROMIUM, PROGRAM, PageCase
 PACKAGE = pathlib.Path(__file__).resolve().parents[2] / "exporters/bindings/python"
 PROTEASE = "/usr/share/pymol/data/tut/1hpv.pdb"
 
-# Returns the words of things by their ids: of a control those of its label, of a list its options, too.
+# Returns the words of controls and other things by their ids: labels, and the options of a list.
 WORDS = """(() => {
   const own = (one) => { const copy = one.cloneNode(true); for (const part of copy.querySelectorAll("select, input, output")) part.remove();
     return copy.textContent.replace(/\\s+/g, " ").trim(); };
@@ -59,7 +59,7 @@ class Words(PageCase):
         self.assertGreater(len(shared), 30)
 
     def test_the_widget_adds_none(self):
-        """What the notebook puts around its page has no words of its own but the figure's title."""
+        """The notebook adds only the figure's title to the words of its page."""
         script = re.search(r'_SCRIPT = """(.*?)"""', (PACKAGE / "meniscus/_widget.py").read_text(), re.DOTALL).group(1)
         self.assertEqual(re.findall(r"textContent|innerText|innerHTML|placeholder|aria|alert\(", script), [])
         self.assertIn('title: model.get("title")', script)

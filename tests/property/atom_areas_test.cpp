@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Areas of atoms: closed forms, sums, random points, and what must not change them.
+// Areas of atoms: closed forms, sums, random points, and changes that must not matter.
 #include "core/surface/measure.h"
 
 #include <cmath>
@@ -36,12 +36,12 @@ TEST(AtomAreas, TwoSpheresOfDifferentSize) {
       if (s.toroidal.empty() || s.counts().convex < 2) continue;
       const AtomAreas areas = atom_areas(s);
       const double a = ra + p, b = rb + p;                      // extended radii
-      const double height = (d * d + a * a - b * b) / (2 * d);  // of the circle over the first centre
+      const double height = (d * d + a * a - b * b) / (2 * d);  // height of the circle over the first centre
       const double circle = std::sqrt(a * a - height * height);
       const double low = std::atan2(-height, circle), high = std::atan2(d - height, circle),
                    middle = 0.5 * (low + high);
       const double tip = circle < p && low < 0 && high > 0 ? std::acos(circle / p) : 0.0;
-      // Area of the torus between two tube angles, without what lies past the axis.
+      // Returns the area of the torus between two tube angles, without the part past the axis.
       const auto torus = [&](double from, double to) {
         double area = 0;
         for (const auto& [left, right] : {std::pair{low, -tip}, {tip, high}}) {
@@ -50,7 +50,8 @@ TEST(AtomAreas, TwoSpheresOfDifferentSize) {
         }
         return area;
       };
-      const double cap_a = 2 * kPi * (1 + height / a), cap_b = 2 * kPi * (1 + (d - height) / b);  // solid angles
+      const double cap_a = 2 * kPi * (1 + height / a),
+                   cap_b = 2 * kPi * (1 + (d - height) / b);  // solid angles of the caps
       EXPECT_NEAR(areas.surface[0], cap_a * ra * ra + torus(low, middle), 1e-9) << "d = " << d << ", p = " << p;
       EXPECT_NEAR(areas.surface[1], cap_b * rb * rb + torus(middle, high), 1e-9) << "d = " << d << ", p = " << p;
       EXPECT_NEAR(areas.accessible[0], cap_a * a * a, 1e-9);
@@ -127,7 +128,7 @@ TEST(AtomAreas, AccessibleAreaOfBallsThatAreTinyBesideTheProbeIsExact) {
   }
 }
 
-// The atom whose contact direction is nearest to a point of a re-entrant patch, by its definition.
+// Returns the atom whose contact direction is nearest to a point of a re-entrant patch, by its definition.
 std::uint32_t owner(const Surface& s, const ConcavePatch& patch, const glm::dvec3& point) {
   std::uint32_t best = 0;
   double nearest = -2;
@@ -151,7 +152,7 @@ std::uint32_t owner(const Surface& s, const ToroidalPatch& patch, const glm::dve
   return cosine(patch.atom[0]) > cosine(patch.atom[1]) ? patch.atom[0] : patch.atom[1];
 }
 
-// Monte Carlo: random points of every patch, each counted for its owner.
+// Counts random points of every patch for their owners.
 void expect_sampled(const Surface& s, int samples, std::mt19937& random) {
   std::vector<double> area(s.atoms.size(), 0.0), variance(s.atoms.size(), 0.0);
   for (const PatchKind kind : {PatchKind::convex, PatchKind::toroidal, PatchKind::concave})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random gases of balls, ties and all: always closed, with the volume, the points and the areas an oracle finds.
+// Random gases of balls, ties included: always closed, with the volume, points and areas of an oracle.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -19,8 +19,8 @@ PatchSample sample_surface(const Surface& s, PatchKind kind, std::uint32_t patch
   return kind == PatchKind::toroidal ? sample_circle(s, patch, random) : sample_patch(s, kind, patch, random);
 }
 
-// Points that the tables call part of a patch lie on the surface; points well off it, on the same sphere or torus, do
-// not. Returns how many were looked at.
+// Checks that points of a patch by its tables lie on the surface, and that points well off it, on the same sphere or
+// torus, do not. Returns the number of points.
 int check_points(const Surface& s, const SphereTracer& oracle, int per_kind, double tolerance, std::mt19937& random) {
   int looked_at = 0;
   for (const PatchKind kind : {PatchKind::convex, PatchKind::toroidal, PatchKind::concave}) {
@@ -46,14 +46,14 @@ void check_gas(std::uint32_t n, std::mt19937& random) {
   SCOPED_TRACE("gas " + std::to_string(n));
   const GasCase gas = gas_case(n);
   const Surface s = compute_surface_cpu(gas.balls, gas.probe_radius);
-  // Touching counts as overlapping: on a grid there are lone points where a probe would just fit.
+  // Touching counts as overlapping, for lone points exist on a grid where a probe would just fit.
   Balls grown = gas.balls;
   if (gas.on_grid)
     for (Ball& b : grown) b.radius += 1e-8;
   const SphereTracer oracle(grown, gas.probe_radius, 0.01);
   const VolumeEstimate volume = sampled_volume(gas.balls, gas.probe_radius, oracle, 12, random);
   EXPECT_NEAR(s.volume, volume.value, 5 * volume.error + 1e-9) << "off by so much of " << volume.error;
-  // Where spheres touch, 1e-8 Å move a probe by its square root.
+  // A change of 1e-8 Å moves a probe by its square root where spheres touch.
   EXPECT_GT(check_points(s, oracle, 60, gas.on_grid ? 1e-3 : 1e-6, random), 0);
 }
 
@@ -66,8 +66,8 @@ TEST_P(Gas, IsClosedAndAsTheOracleSays) {
   for (std::uint32_t n = GetParam(); n < GetParam() + kCasesPerTest; ++n) check_gas(n, random);
 }
 
-// Four and more probes through one point, circles exactly as large as the probe, probes in the plane of their atoms; in
-// 4260 a piece of two probes' circle lies deep in one patch and beside the other.
+// Cases have four and more probes through one point, circles exactly as large as the probe, probes in the plane of
+// their atoms; in 4260 a piece of two probes' circle lies deep in one patch and next to the other.
 TEST(GasesWithTies, ThatAreHardestToClose) {
   std::mt19937 random(6);
   for (const std::uint32_t n :

@@ -30,7 +30,7 @@ double total_of(const std::vector<double>& values) {
   return total;
 }
 
-/// The solvent-accessible volume, from that of the grown balls.
+/// Returns the solvent-accessible volume, as the volume of the grown balls.
 double accessible_volume(const Surface& surface) {
   Balls grown = surface.atoms;
   for (Ball& ball : grown) ball.radius += surface.probe_radius;
@@ -44,14 +44,14 @@ const std::array<Quantity, 4> kQuantities{
       [](const Surface& s) { return accessible_area_gradient(s); }},
      {"accessible volume", accessible_volume, accessible_volume_gradient}}};
 
-/// What a difference along the way cannot see beyond: patches that come or go.
+/// Returns numbers of patches: a difference along a way is wrong where patches come or go.
 std::array<std::size_t, 6> figure_of(const Surface& s) {
   return {s.faces.size(),    s.borders.size(),  s.concave.size(),
           s.toroidal.size(), s.vertices.size(), s.components.size()};
 }
 
-/// Central difference of eighth order of a molecule's number when its balls move along `motion`, Å; nothing where
-/// patches come or go.
+/// Returns the central difference of eighth order of a molecule's number when its balls move along `motion`, Å; nothing
+/// where patches come or go.
 std::optional<double> one_difference(const Balls& balls, double probe, const std::vector<glm::dvec3>& motion,
                                      double (*value)(const Surface&), double step) {
   constexpr std::array<double, 4> kWeights{4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
@@ -70,7 +70,7 @@ std::optional<double> one_difference(const Balls& balls, double probe, const std
   return result;
 }
 
-/// Of two steps; nothing, either, where they do not agree, next to a place without a derivative.
+/// Returns the difference of two steps; nothing where they disagree, next to a place without a derivative.
 std::optional<double> difference(const Balls& balls, double probe, const std::vector<glm::dvec3>& motion,
                                  double (*value)(const Surface&), double step) {
   const auto wide = one_difference(balls, probe, motion, value, step),
@@ -181,7 +181,7 @@ TEST(Gradients, WeightsAreThoseOfAtoms) {
   }
   const Gradient gradient = accessible_area_gradient(surface, weights);
   for (std::size_t b = 0; b < balls.size(); ++b) EXPECT_LT(glm::distance(gradient[b], together[b]), 1e-10);
-  // Of one atom's area, by a difference.
+  // One atom's area is compared with a difference.
   const std::size_t watched = 7, moved = 7;
   std::vector<double> one(balls.size());
   one[watched] = 1;
@@ -197,7 +197,7 @@ TEST(Gradients, WeightsAreThoseOfAtoms) {
 }
 
 TEST(Gradients, AProbeOnFourAtomsHasNone) {
-  const Surface surface = compute_surface_cpu(ring(4, 3.4), kWater);  // a square
+  const Surface surface = compute_surface_cpu(ring(4, 3.4), kWater);  // The atoms make a square.
   ASSERT_FALSE(surface.concave.empty());
   try {
     volume_gradient(surface);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nothing that leaves a molecule the same may change its surface: motions, mirrors, scale, atom order, doubled atoms.
+// Changes that leave a molecule the same keep its surface: motions, mirrors, scale, atom order, doubled atoms.
 #include <cmath>
 #include <functional>
 #include <random>

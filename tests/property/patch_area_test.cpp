@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two views of a surface agree: what the planes of a patch leave is what its faces measure in closed form.
+// Both views of a surface agree: the area within a patch's planes is the closed form of its faces.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -18,7 +18,7 @@
 namespace meniscus::testing {
 namespace {
 
-// Every patch by itself: the share of random points that the planes keep, against the faces' Gauss-Bonnet areas.
+// Compares for every patch the share of random points that the planes keep with the faces' Gauss-Bonnet areas.
 void expect_areas_agree(const Surface& s, int samples, std::mt19937& random) {
   for (const PatchKind kind : {PatchKind::convex, PatchKind::toroidal, PatchKind::concave}) {
     double total = 0, total_variance = 0, faces = 0;
@@ -27,7 +27,7 @@ void expect_areas_agree(const Surface& s, int samples, std::mt19937& random) {
       for (int n = 0; n < samples; ++n) inside += sample_patch(s, kind, patch, random).inside;
       const double whole = whole_area(s, kind, patch), area = face_area(s, kind, patch);
       const double share = std::clamp(area / whole, 0.0, 1.0), expected = share * samples;
-      // Wide enough for the Poisson tail of slivers, and 6 standard deviations for the rest.
+      // The bound is wide enough for the Poisson tail of slivers, and has 6 standard deviations for the rest.
       EXPECT_NEAR(inside, expected, 6 * std::sqrt(expected * (1 - share)) + 4)
           << "kind " << int(kind) << ", patch " << patch << ", area " << area;
       total += whole * inside / samples;
@@ -62,7 +62,7 @@ TEST(PatchArea, Gases) {
   }
 }
 
-// Areas of the connected pieces of a spherical patch on a grid of latitude and longitude, largest first.
+// Returns areas of the connected pieces of a spherical patch on a grid of latitude and longitude, largest first.
 std::vector<double> piece_areas(const Surface& s, PatchKind kind, std::uint32_t patch, int rows) {
   const int columns = 2 * rows;
   const bool convex = kind == PatchKind::convex;
@@ -98,8 +98,8 @@ std::vector<double> piece_areas(const Surface& s, PatchKind kind, std::uint32_t 
 
 struct FaceCheck {
   int checked = 0;     ///< patches of several loops whose pieces two grids agree on
-  int many_faces = 0;  ///< of these, patches in several pieces
-  int rings = 0;       ///< of these, faces with holes
+  int many_faces = 0;  ///< checked patches in several pieces
+  int rings = 0;       ///< faces with holes in checked patches
 };
 
 void check_pieces(const Surface& s, FaceCheck& check) {
@@ -113,8 +113,8 @@ void check_pieces(const Surface& s, FaceCheck& check) {
     }
     if (loops < 2) return;
     const std::vector<double> coarse = piece_areas(s, kind, patch, 90), fine = piece_areas(s, kind, patch, 157);
-    if (coarse.size() != fine.size()) return;  // slivers or necks that a grid cannot see
-    // What is smaller than a grid can see is left out on both sides.
+    if (coarse.size() != fine.size()) return;  // A grid cannot see slivers or necks.
+    // Pieces that are smaller than a grid can see are left out on both sides.
     const double radius = kind == PatchKind::convex ? s.atoms[s.convex[patch].atom].radius : s.probe_radius;
     const auto visible = [&](double area) { return area > 0.05 * radius * radius; };
     std::sort(areas.rbegin(), areas.rend());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Copies about a symmetry axis, as in virus capsids: exact, or as far off as files round their matrices, always closed.
+// Copies about a symmetry axis, like in virus capsids: exact, or as far off as matrices in files, always closed.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -13,12 +13,12 @@
 namespace meniscus::testing {
 namespace {
 
-/// A few random balls, some on the axis, repeated `fold` times about a random axis, each copy shaken by `jitter` Å.
+/// Returns a few random balls, some on the axis, `fold` times about a random axis, each copy shaken by `jitter` Å.
 Balls symmetric_gas(int fold, double jitter, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(-1, 1);
   std::normal_distribution<double> normal;
   const auto vector = [&](auto& distribution) {
-    return glm::dvec3{distribution(random), distribution(random), distribution(random)};  // in this order
+    return glm::dvec3{distribution(random), distribution(random), distribution(random)};  // The order is fixed.
   };
   const glm::dvec3 axis = glm::normalize(vector(normal)), origin = 100.0 * vector(unit);
   constexpr double kRadii[] = {1.7, 1.55, 1.52, 1.8, 1.2};

@@ -81,7 +81,7 @@ class Questions {
       if (is_exposed && !shown && found_.lost.empty())
         found_.lost = fmt::format("atom {} {} though {} Å outside of every other ball", a,
                                   patch == kNone ? "has no patch" : "lacks a point of its patch", clear);
-      // Probes that are merged may leave a hair between the planes of their arcs.
+      // Merged probes may leave a hair between the planes of their arcs.
       if (!is_exposed && shown && clear < -kMerged - doubt && found_.wrong.empty())
         found_.wrong = fmt::format("the patch of atom {} has a point {} Å inside of another ball", a, -clear);
     }

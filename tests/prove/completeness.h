@@ -14,8 +14,8 @@ namespace meniscus::testing {
 struct Completeness {
   std::string lost;         ///< an exposed point that no patch has: one line; empty if there is none
   std::string wrong;        ///< a covered point that a patch has, or an area that the points contradict
-  std::size_t asked = 0;    ///< points
-  std::size_t skipped = 0;  ///< of them, nearer to some sphere than growth may have moved it
+  std::size_t asked = 0;    ///< points that were tested
+  std::size_t skipped = 0;  ///< tested points that are nearer to some sphere than growth may have moved it
 };
 
 /// Å: the most by which radii may differ between the given balls and those whose exact surface this is: the growth of

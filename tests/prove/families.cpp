@@ -29,7 +29,7 @@ Made through_one_point(Dice& dice) {
   return {balls, p};
 }
 
-// Through two points: all centres on one circle's plane, the spheres share a circle's two poles.
+// The centres of spheres through two points lie on one circle's plane, and the spheres share a circle's two poles.
 Made through_two_points(Dice& dice) {
   const double p = dice.probe(), half = dice.between(0.05, 0.95);
   Balls balls;
@@ -70,7 +70,7 @@ Balls dodecahedron(double radius, double r) {
   return balls;
 }
 
-// Circumradius exactly r + p (a probe just fits the centre), or an edge at which a probe just passes a face.
+// The circumradius is exactly r + p (a probe just fits the centre), or an edge lets a probe just pass a face.
 Made solid(Dice& dice) {
   const double p = dice.small_probe(), r = dice.radius(), fit = r + p;
   const int kind = dice.count(0, 4), tie = dice.count(0, 3);
@@ -96,7 +96,7 @@ Made solid(Dice& dice) {
   return {balls, p};
 }
 
-// Simple, body-centred, face-centred cubic, hexagonal or diamond; with vacancies and sometimes mixed radii.
+// Crystals are simple, body- or face-centred cubic, hexagonal or diamond; with vacancies, some with mixed radii.
 Made crystal(Dice& dice) {
   const double p = dice.probe(), r = dice.radius();
   const int kind = dice.count(0, 4), cells = dice.count(1, 2);
@@ -151,7 +151,7 @@ Made ring_or_helix(Dice& dice) {
   return {balls, p};
 }
 
-// Balls that touch others from outside or inside, as vdW or as SAS spheres, or lie in them.
+// Balls touch others from outside or inside, as vdW or as SAS spheres, or lie in them.
 Made tangent(Dice& dice) {
   const double p = dice.small_probe();
   Balls balls = {{{0, 0, 0}, dice.radius()}};
@@ -167,7 +167,7 @@ Made tangent(Dice& dice) {
   return {balls, p};
 }
 
-// Circles exactly as large as the probe, collinear and in a plane.
+// Circles are exactly as large as the probe, collinear and in a plane.
 Made critical_spindles(Dice& dice) {
   const double p = dice.small_probe(), r = dice.radius(), fit = r + p;
   const double d = 2 * std::sqrt(fit * fit - p * p);
@@ -223,7 +223,7 @@ Made symmetric(Dice& dice) {
   return {balls, p};
 }
 
-// Each of a few atoms several times over, almost at one place.
+// Each of a few atoms exists several times, almost at one place.
 Made nearly_coincident(Dice& dice) {
   const double p = dice.small_probe();
   const double spread = std::pow(10.0, dice.between(-13, -4)), blur = dice.chance(0.5) ? spread : 0.0;

@@ -11,7 +11,7 @@
 
 namespace meniscus::testing {
 
-/// One input, and how far it is from the tie it was made for.
+/// One input, and its distance from the tie that it was made for.
 struct FamilyCase {
   std::string family;
   Balls balls;                ///< Å
@@ -19,20 +19,20 @@ struct FamilyCase {
   double jitter = 0.0;        ///< Å by which each centre was moved; 0: exact up to rounding
 };
 
-/// The names of the families, in the order in which cases go round them.
+/// Returns the names of the families in the order of cases.
 const std::vector<std::string>& family_names();
 
-/// The n-th case of a family: exact, or jittered by 1e-12 to 1e-3 Å; turned and reordered, or as made. The same n is
-/// the same case on every machine.
+/// Returns the n-th case of a family: exact, or jittered by 1e-12 to 1e-3 Å; turned and reordered, or unchanged. The
+/// same n is the same case on every machine.
 FamilyCase family_case(const std::string& family, std::uint32_t n);
 
-/// An input that once went wrong or was refused, cut down.
+/// A shortened input that once failed or was refused.
 struct CorpusCase {
   Balls balls;
   double probe_radius = 0.0;
 };
 
-/// A file of tests/corpus: a line `# probe P: what went wrong`, then `x y z radius` in Å.
+/// Reads a file of tests/corpus: a line `# probe P: what went wrong`, then `x y z radius` in Å.
 CorpusCase read_corpus(const std::string& path);
 
 }  // namespace meniscus::testing

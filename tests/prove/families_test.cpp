@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first cases of each family of balls made to tie, and every input that once went wrong or was refused.
+// The first cases of each family of balls made to tie, and every input that once failed or was refused.
 #include <algorithm>
 #include <filesystem>
 #include <random>
@@ -19,7 +19,7 @@
 namespace meniscus::testing {
 namespace {
 
-/// Returns whether it took growing radii to close the surface.
+/// Checks a surface; returns whether it closed only with growing radii.
 bool expect_right(const Balls& balls, double probe_radius, std::uint32_t seed, int effort, Turned turned = Turned::no) {
   const SurfaceVerdict verdict = check_surface(balls, probe_radius, seed, effort, turned);
   EXPECT_FALSE(verdict.refused);
@@ -27,8 +27,8 @@ bool expect_right(const Balls& balls, double probe_radius, std::uint32_t seed, i
   return verdict.surface && verdict.surface->certificate.grown_by > 0;
 }
 
-/// What the growth of the last rung may hide: of 160 cases 20, 23, 9, 5, 2, 2 and 1 need it, and none or one of the
-/// other families.
+/// Returns how many cases may need the growth of the last rung: of 160 cases 20, 23, 9, 5, 2, 2 and 1 need it, and none
+/// or one of the other families.
 int most_grown(const std::string& family) {
   if (family == "one-point") return 26;
   if (family == "tube") return 29;
@@ -72,7 +72,7 @@ std::vector<std::string> corpus() {
 
 class Corpus : public ::testing::TestWithParam<std::string> {};
 
-// As given, and turned: what was wrong was so in some orientations only.
+// Inputs are tested as given and turned: some were wrong in some orientations only.
 TEST_P(Corpus, IsClosedAndRight) {
   const CorpusCase entry = read_corpus(std::string(MENISCUS_CORPUS) + "/" + GetParam() + ".xyzr");
   ASSERT_GE(entry.balls.size(), 2u);
@@ -106,7 +106,7 @@ TEST(NearlyCoincidentAtoms, AreOne) {
   }
 }
 
-// Each of a row of atoms lies nearly in the next, but not the last in the first.
+// Each of a row of atoms lies nearly in the next, but the last does not lie in the first.
 TEST(NearlyCoincidentAtoms, DoNotHandEachOtherOn) {
   Balls row;
   for (int n = 0; n < 40; ++n) row.push_back({{5e-7 * n, 0, 0}, 1.5});

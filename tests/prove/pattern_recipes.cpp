@@ -11,7 +11,7 @@
 namespace meniscus::testing {
 namespace {
 
-/// A sixth of them keep the digits of a single, a sixth those of a PDB file.
+/// Rounds a sixth of them to single precision, and a sixth to the digits of a PDB file.
 Balls stored(Balls balls, Dice& dice) {
   const int how = dice.count(0, 5);
   for (Ball& b : balls)
@@ -22,7 +22,7 @@ Balls stored(Balls balls, Dice& dice) {
   return balls;
 }
 
-// Boerdijk's and Coxeter's: tetrahedra face to face, all edges equal; one of them, or some side by side.
+// Boerdijk's and Coxeter's helix: tetrahedra face to face with equal edges; one helix, or some side by side.
 Made tetrahelix(Dice& dice) {
   const double p = dice.probe(), r = dice.radius(), fit = r + p;
   const double edges[] = {fit, fit * std::sqrt(8.0 / 3), fit * std::sqrt(3.0), 2 * fit, 2 * r, 1.5};
@@ -37,7 +37,7 @@ Made tetrahelix(Dice& dice) {
   return {stored(balls, dice), p};
 }
 
-// An n-fold screw axis, and some atoms that it repeats; often as far from it as a probe on it touches.
+// An n-fold screw axis repeats some atoms, often so far from it that a probe on it touches them.
 Made screw(Dice& dice) {
   const double p = dice.chance(0.15) ? 100.0 : dice.probe(), r = dice.radius(), fit = r + p;
   const int fold = dice.count(2, 12), step = dice.count(1, fold), count = dice.count(2, 20);
@@ -60,7 +60,7 @@ Made screw(Dice& dice) {
   return {stored(balls, dice), p};
 }
 
-// Two walls between which a probe just fits, or does not; parallel, or a wedge.
+// A probe just fits between two walls, or does not; they are parallel, or a wedge.
 Made crevice(Dice& dice) {
   const double p = dice.probe(), r = dice.radius(), fit = r + p;
   const double steps[] = {fit, fit * std::sqrt(2.0), 2 * r, fit * std::sqrt(3.0)};
@@ -81,7 +81,7 @@ Made crevice(Dice& dice) {
   return {balls, p};
 }
 
-// Rings of atoms on one sphere, to which a probe in its middle fits; or a solid's corners on it.
+// Rings of atoms, or a solid's corners, lie on one sphere around a probe that touches them.
 Made cospherical(Dice& dice) {
   const double p = dice.chance(0.15) ? 100.0 : dice.probe(), r = dice.radius(), fit = r + p;
   const double radius = dice.chance(0.7) ? fit : fit * dice.between(0.5, 1.6);
@@ -105,11 +105,11 @@ Made cospherical(Dice& dice) {
   return {stored(balls, dice), p};
 }
 
-// What a ball or a slab holds of a lattice, some of it left out: face-centred, hexagonal, body-centred, diamond.
+// A ball or a slab is filled by a part of a lattice: face-centred, hexagonal, body-centred, diamond.
 Made lattice_part(Dice& dice) {
   const double p = dice.probe(), r = dice.radius(), fit = r + p;
   const int kind = dice.count(0, 3);
-  // The distance of neighbours: atoms touch; a probe fits between three, or into a tetrahedral or octahedral hole.
+  // Ties of neighbours' distances: atoms touch; a probe fits between three, or into a tetrahedral or octahedral hole.
   const double ties[] = {2 * r, 2 * fit, fit * std::sqrt(3.0), fit * std::sqrt(8.0 / 3), fit * std::sqrt(2.0), fit};
   const double near = dice.chance(0.7) ? ties[dice.count(0, 5)] : dice.between(1.0, 4.0);
   const double h = std::sqrt(2.0 / 3), t = std::sqrt(3.0);
@@ -136,11 +136,11 @@ Made lattice_part(Dice& dice) {
   return {stored(balls, dice), p};
 }
 
-// The orbit of a few atoms under operators as files state them: digits of a rotation, translations in parts of a cell,
-// one operator applied again and again, with all that rounding adds.
+// Operators of files act on a few atoms: digits of a rotation, translations in parts of a cell, one operator applied
+// again and again, with all errors of rounding.
 Made orbit(Dice& dice) {
   const double p = dice.small_probe(), half = std::sqrt(3.0) / 2, edge = dice.between(3, 9);
-  const int digits = dice.count(0, 2);  // in full, 6 (PDB) or 10
+  const int digits = dice.count(0, 2);  // all digits, 6 (PDB) or 10
   const auto written = [&](double value) {
     const double unit = digits == 0 ? 0.0 : digits == 1 ? 1e6 : 1e10;
     return unit > 0 ? std::round(value * unit) / unit : value;
@@ -155,7 +155,7 @@ Made orbit(Dice& dice) {
   for (int n = 0, atoms = dice.count(1, 5); n < atoms; ++n) {
     glm::dvec3 x = dice.in_cube(4);
     if (dice.chance(0.3)) x = {0, 0, x.z};                                    // on the axis
-    if (dice.chance(0.2)) x = {dice.hair(-12, -5), dice.hair(-12, -5), x.z};  // beside it
+    if (dice.chance(0.2)) x = {dice.hair(-12, -5), dice.hair(-12, -5), x.z};  // next to the axis
     const double r = dice.radius();
     for (int copy = 0; copy < 2 * fold && copy < 8; ++copy) {
       balls.push_back({x, r});
@@ -170,7 +170,7 @@ Made orbit(Dice& dice) {
   return {stored(balls, dice), p};
 }
 
-// Few small atoms, as far apart as a huge probe reaches around them.
+// Few small atoms are as far apart as a huge probe reaches around them.
 Made specks(Dice& dice) {
   const double scale = dice.chance(0.5) ? 0.25 : 1.0, p = (dice.chance(0.5) ? 50.0 : 10.0) * scale;
   const double r = dice.radius() * scale, fit = r + p;

@@ -36,7 +36,7 @@ void write_case(const std::string& path, const FamilyCase& made, const std::stri
     file << fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", b.center.x, b.center.y, b.center.z, b.radius);
 }
 
-// What is worth keeping of an input: it fails, or its radii have to grow (core/surface/compute_surface.h).
+// Returns why an input is worth keeping: it fails, or its radii have to grow (core/surface/compute_surface.h).
 std::string trouble_of(const CorpusCase& entry) {
   const SurfaceVerdict verdict = check_surface(entry.balls, entry.probe_radius, 1);
   if (verdict.refused) return "refused";

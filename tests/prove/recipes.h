@@ -28,7 +28,7 @@ class Dice {
   double radius() { return kRadii[count(0, 6)]; }
   double probe() { return kProbes[count(0, 11)]; }
   double small_probe() { return kProbes[count(0, 8)]; }
-  /// From 10^low to 10^high, of either sign.
+  /// Draws from 10^low to 10^high, of either sign.
   double hair(double low, double high) {
     const double size = std::pow(10.0, between(low, high));
     return chance(0.5) ? size : -size;
@@ -58,9 +58,9 @@ struct Recipe {
   Made (*make)(Dice&);
 };
 
-/// Balls that touch, or miss each other slightly.
+/// Returns recipes for balls that touch, or miss each other slightly.
 std::vector<Recipe> touching_recipes();
-/// Balls in helices, on common spheres, in walls, lattices and orbits of symmetry operators.
+/// Returns recipes for helices, common spheres, walls, lattices and orbits of symmetry operators.
 std::vector<Recipe> pattern_recipes();
 
 }  // namespace meniscus::testing

@@ -84,7 +84,7 @@ class Check {
     return {};
   }
 
-  // An area that is off by a sphere is off by a share of 1: a few points tell.
+  // An area that is off by a sphere is off by a share of 1, which a few points show.
   std::string patches() {
     for (const PatchKind kind : {PatchKind::convex, PatchKind::concave}) {
       if (kind == PatchKind::concave && s_.probe_radius == 0) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks one surface against everything that is known without its own combinatorics; names whatever disagrees.
+// Checks one surface against all knowledge that does not need its own combinatorics, and names disagreements.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace meniscus::testing {
 
-/// What became of one input.
+/// The result of checking one input.
 struct SurfaceVerdict {
-  bool refused = false;   ///< OpenSurfaceError, of the balls as given or turned
+  bool refused = false;   ///< OpenSurfaceError for the balls as given or turned
   bool lost = false;      ///< something of the surface is missing (completeness.h); the complaint says what
-  bool tied = false;      ///< turned it is another surface, within the bounds of turning.h
+  bool tied = false;      ///< another surface when turned, within the bounds of turning.h
   std::string complaint;  ///< empty if all checks agree; else one line
   std::optional<Surface> surface;
 };
 
-/// Whether the atoms are asked once more, turned and reordered.
+/// Says whether the surface is computed once more, with turned and reordered atoms.
 enum class Turned { no, too };
 
 /// Computes the surface on the CPU and checks it: random points of every atom's SAS sphere (completeness.h), the area

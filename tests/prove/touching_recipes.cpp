@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chains, near misses, nested balls and Soddy's spheres: what is decided where two spheres barely meet.
+// Chains, near misses, nested balls and Soddy's spheres: decisions where two spheres barely meet.
 #include <algorithm>
 #include <array>
 
@@ -25,7 +25,7 @@ void join(Balls& balls, const Balls& part, double probe_radius, const glm::dvec3
   for (const Ball& b : part) balls.push_back({b.center + way * direction, b.radius});
 }
 
-// SAS balls that miss or meet each other by 1e-10 to 1e-7 Å, each such pair the only link between what it links.
+// SAS balls miss or meet each other by 1e-10 to 1e-7 Å, and each such pair is the only link between its parts.
 Made near_miss(Dice& dice) {
   const double p = dice.chance(0.1) ? 0.0 : dice.probe();
   const double equal = dice.chance(0.5) ? dice.radius() : 0.0;
@@ -36,14 +36,14 @@ Made near_miss(Dice& dice) {
     return gas(dice.bits()(), count, box, 1.0, 2.0);
   };
   const auto gap = [&] { return dice.hair(-10, -7); };
-  // One draw after another, for arguments are evaluated in an order of the compiler's.
+  // Draws follow one another, for compilers evaluate arguments in an order of their own.
   const auto add = [&](Balls& balls, const Balls& part) {
     const glm::dvec3 direction = dice.direction();
     join(balls, part, p, direction, gap());
   };
   Balls balls;
   switch (dice.count(0, 4)) {
-    case 0:  // two
+    case 0:  // two parts
       balls = single();
       add(balls, single());
       break;
@@ -81,7 +81,7 @@ Made near_miss(Dice& dice) {
   return {balls, p};
 }
 
-// Each touches the next, as vdW or as SAS spheres, exactly or but for a hair: straight, bent, or closed to a ring.
+// Each touches the next, as vdW or as SAS spheres, exactly or but for a hair, in a straight, bent or closed chain.
 Made tangent_chain(Dice& dice) {
   const double p = dice.probe(), grows = dice.chance(0.3) ? dice.between(0.7, 1.4) : 1.0;
   const double equal = dice.chance(0.6) ? dice.radius() : 0.0;
@@ -99,7 +99,7 @@ Made tangent_chain(Dice& dice) {
   return {balls, p};
 }
 
-// Balls in balls, each nearly touching the one around it from inside.
+// Balls lie in balls, each nearly touching the one around it from inside.
 Made dolls(Dice& dice) {
   const double p = dice.small_probe();
   Balls balls = {{{0, 0, 0}, dice.between(2, 8)}};
@@ -114,8 +114,8 @@ Made dolls(Dice& dice) {
   return {balls, p};
 }
 
-// Soddy's spheres: five that touch each other, and again and again the other one that touches four of them. Curvatures,
-// and curvatures times centres, of the two add up to the sum of those of the four.
+// Five of Soddy's spheres touch each other, and then again and again the other one that touches four of them.
+// Curvatures of the two, and curvatures times centres, add up to the sum of those of the four.
 Made soddy(Dice& dice) {
   struct Bent {
     double curvature;

@@ -42,7 +42,7 @@ struct Sizes {
   }
 };
 
-/// What rounding may do, and probes that are merged within 1e-6 Å.
+/// Returns the largest effect of rounding, and of probes that are merged within 1e-6 Å.
 double noise_of(const Surface& s) {
   double size = s.probe_radius;
   for (const Ball& b : s.atoms) size = std::max(size, b.radius + s.probe_radius);
@@ -50,7 +50,7 @@ double noise_of(const Surface& s) {
   return 1e-8 * (1 + size) * (1 + size) * (1 + size) * spheres + 1e-7 * (1 + s.area);
 }
 
-/// What growth by g may move of all sizes at ties, where spheres touch and it moves a probe by its square root.
+/// Returns how far growth by g moves sizes at ties, where spheres touch and a probe moves by its square root.
 double blur_of(const Surface& s, double growth) {
   double size = 0;
   for (const Ball& b : s.atoms) size = std::max(size, b.radius + s.probe_radius);
@@ -63,14 +63,14 @@ double growth_of(const Surface& s) {
   return allowed_growth(s) + (any ? 1e-6 : 0.0);
 }
 
-/// The surface of radii that all grow by the same, or shrink.
+/// A surface whose radii all grow or shrink by the same amount.
 struct Resized {
   std::optional<Surface> surface;
   double growth = 0;  ///< Å, of either sign
 };
 
-/// Of radii that differ by `growth` at least, and by so much that the surface is not that of radii nearer by: one that
-/// is exact for radii within 8e-7 Å says nothing of radii that are 3e-7 Å smaller.
+/// Returns a surface of radii that differ by `growth` at least, and by so much that it is not the surface of nearer
+/// radii: one that is exact for radii within 8e-7 Å says nothing of radii that are 3e-7 Å smaller.
 Resized resized_beyond(const Balls& balls, double growth, double probe_radius) {
   constexpr double kLargest = 1e-4;
   Resized resized_surface;
@@ -107,7 +107,7 @@ Turning check_turning(const Surface& surface, const Balls& balls, std::uint32_t 
   if (!less.surface || !more.surface) return verdict;
   const Sizes inner(*less.surface), outer(*more.surface);
   const double growth = std::max(-less.growth, more.growth);
-  // Probes that are as near as 1e-6 Å count as one.
+  // Probes within 1e-6 Å of each other count as one.
   const double tie = noise + blur_of(*more.surface, growth),
                blur = noise + blur_of(*more.surface, std::max(growth, 1e-6));
   const bool free_of_ties = inner.agrees(outer, noise);

@@ -11,9 +11,9 @@
 namespace meniscus::testing {
 
 struct Turning {
-  bool refused = false;   ///< the turned input, though the given one was not
-  bool lost = false;      ///< something of the turned one is missing (completeness.h); the complaint says what
-  bool tied = false;      ///< another surface, as growth allows: bounded below and above as said at check_turning()
+  bool refused = false;   ///< OpenSurfaceError for the turned input, but not for the given one
+  bool lost = false;      ///< part of the turned surface is missing (completeness.h); the complaint says which
+  bool tied = false;      ///< another surface within the effect of growth, by the bounds of check_turning()
   std::string complaint;  ///< what is missing, wrong, or neither the same nor explained: one line
 };
 

@@ -21,7 +21,7 @@ ALL = ("MDAnalysis", "mdtraj", "prody", "biotite", "biopython", "ase", "rdkit", 
        "unyt", "joblib", "dask", "trimesh", "pyvista", "open3d")
 NAMED = sys.argv[1:]
 
-# Two residues, three models.
+# Atoms of two residues, in three models.
 NAMES = (("N", "N"), ("CA", "C"), ("C", "C"), ("O", "O"), ("CB", "C"), ("SG", "S"))
 
 
@@ -44,13 +44,13 @@ def pdb(frames):
 
 
 def one(xyz):
-    """Work for another process."""
+    """Computes a surface in another process."""
     s = meniscus.surface(xyz, 1.7, threads=1)
     return s, s.mesh(density=0.5)
 
 
 def tried_with(name):
-    """Decorates a test of one package: if others are named it is not one of this run's tests."""
+    """Decorates a test of one package: it runs when the package is named, or none is."""
     return lambda test: test if not NAMED or name in NAMED else None
 
 
@@ -80,13 +80,13 @@ class Frames(unittest.TestCase):
 
     def check(self, first, every, relative):
         self.assertAlmostEqual(first.area / self.areas[0], 1.0, delta=relative)
-        found = [s.area for s in list(every)]  # each keeps its frame
+        found = [s.area for s in list(every)]  # Each surface keeps its frame.
         np.testing.assert_allclose(found, self.areas, rtol=relative)
 
     @tried_with("MDAnalysis")
     def test_mdanalysis(self):
         atoms = module("MDAnalysis").Universe(self.file).atoms
-        self.check(meniscus.from_mdanalysis(atoms, probe=1.3), meniscus.frames(atoms, probe=1.3), 1e-5)  # floats
+        self.check(meniscus.from_mdanalysis(atoms, probe=1.3), meniscus.frames(atoms, probe=1.3), 1e-5)  # MDAnalysis has floats.
         np.testing.assert_allclose(meniscus.series(atoms, probe=1.3)["area"], self.areas, rtol=1e-5)
         part = meniscus.from_mdanalysis(atoms[:6], probe=1.3)
         self.assertEqual(len(part), 6)
@@ -115,7 +115,7 @@ class Frames(unittest.TestCase):
     @tried_with("biopython")
     def test_biopython(self):
         structure = module("Bio.PDB").PDBParser(QUIET=True).get_structure("models", self.file)
-        self.check(meniscus.from_biopython(structure, probe=1.3), meniscus.frames(structure, probe=1.3), 1e-6)  # floats
+        self.check(meniscus.from_biopython(structure, probe=1.3), meniscus.frames(structure, probe=1.3), 1e-6)  # Biopython has floats.
         self.assertAlmostEqual(meniscus.from_biopython(structure[1], probe=1.3).area / self.areas[1], 1, delta=1e-6)
         residue = next(structure.get_residues())
         self.assertEqual(len(meniscus.from_biopython(residue)), 6)
@@ -217,7 +217,7 @@ class Frames(unittest.TestCase):
 
     def test_series(self):
         random = np.random.default_rng(1)
-        turns, heights = 2.399963 * np.arange(60), 1 - (2 * np.arange(60) + 1) / 60  # a cage no probe gets out of
+        turns, heights = 2.399963 * np.arange(60), 1 - (2 * np.arange(60) + 1) / 60  # a cage that no probe leaves
         flat = np.sqrt(1 - heights**2)
         cage = 4.2 * np.stack([flat * np.cos(turns), flat * np.sin(turns), heights], axis=1)
 
@@ -240,7 +240,7 @@ class Frames(unittest.TestCase):
 
 
 class Units(unittest.TestCase):
-    """What carries a unit is converted; positions in nm without one are warned of."""
+    """Values with a unit are converted; positions in nm without one give a warning."""
 
     @classmethod
     def setUpClass(cls):
@@ -336,7 +336,7 @@ class Units(unittest.TestCase):
 
 
 class Processes(unittest.TestCase):
-    """Surfaces come back from workers as they were there."""
+    """Surfaces come back unchanged from workers."""
 
     def check(self, came_back):
         surfaces, meshes = zip(*came_back)

@@ -23,7 +23,7 @@ import meniscus
 NAMED = sys.argv[1:]
 UBIQUITIN = pathlib.Path("/usr/share/freesasa/test-data/1ubq.pdb")
 
-#: What the tasks of each package use, before which they are left out if the package is missing.
+#: Code that the tasks of each package use; without the package they are left out.
 SETUP = {
     "": """m = meniscus.read("1ubq.pdb"); s = meniscus.surface(m); xyz = np.array(m.positions); mesh = s.mesh(0.3)
 scene = meniscus.Scene("1ubq.pdb", size="80x60"); small = meniscus.surface([[0, 0, 0], [3, 0, 0]], [1.7, 1.52])
@@ -52,7 +52,7 @@ writer = Chem.SDWriter("poses.sdf"); _ = [writer.write(one, confId=c) for one in
     "freesasa": "import freesasa",
 }
 
-#: The package, the task, the expression and the pattern.
+#: Each row has the package, the task, the expression and the pattern.
 TASKS = [
     ("", "area of a file", "round(s.area, 2)", "4027.76"),
     ("", "volume of a file", "round(s.volume, 2)", "9185.44"),

@@ -20,7 +20,7 @@ for molecule in MOLECULES:
 
 
 def checked_in(document):
-    """How many numbers a document shows; all are right."""
+    """Returns how many numbers a document shows; all must be right."""
     names = {"__name__": "document"}
     checked = 0
     for block in re.findall(r"```python\n(.*?)```", document.read_text(), re.S):

@@ -21,8 +21,8 @@ from meniscus._library import why_not_loaded
 
 
 def run(code, library=LIBRARY, package=PACKAGE, flags=("-B",), **options):
-    """Runs a program in an interpreter of its own, with this library or, if None, what the package finds; its last line of
-    errors."""
+    """Runs a program in an interpreter of its own, with this library or, if None, the one that the package finds;
+    returns its last line of errors."""
     environment = {**os.environ, "MENISCUS_LIBRARY": str(library or "")}
     ended = subprocess.run([sys.executable, *flags, "-c", f"import sys; sys.path.insert(0, {str(package)!r})\n{code}"],
                            text=True, capture_output=True, env=environment, **options)
@@ -30,13 +30,13 @@ def run(code, library=LIBRARY, package=PACKAGE, flags=("-B",), **options):
 
 
 def installed(folder, content):
-    """The package with its library, as a wheel has it, in this folder."""
+    """Installs the package with its library in this folder, like a wheel."""
     shutil.copytree(PACKAGE / "meniscus", folder / "meniscus", ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "meniscus" / "libmeniscus.so").write_bytes(content)
 
 
 def elf_hash(name):
-    """By which the loader compares names of versions."""
+    """Returns the loader's hash of a version's name."""
     value = 0
     for byte in name.encode():
         value = (value << 4) + byte
@@ -55,12 +55,12 @@ class Missing(unittest.TestCase):
                          "install it, or set MENISCUS_LIBRARY to its file$")
 
     def test_read_only_folders_are_enough(self):
-        with tempfile.TemporaryDirectory() as name:  # nothing is written there
+        with tempfile.TemporaryDirectory() as name:  # The package writes nothing there.
             folder = pathlib.Path(name)
             installed(folder, LIBRARY.read_bytes())
             for path in (folder, folder / "meniscus"):
                 path.chmod(0o555)
-            user = {"user": "nobody", "cwd": "/"} if os.geteuid() == 0 else {}  # root may write anywhere
+            user = {"user": "nobody", "cwd": "/"} if os.geteuid() == 0 else {}  # Root may write anywhere.
             before = sorted(folder.rglob("*"))
             code = "import meniscus; s = meniscus.surface([[0, 0, 0]], 1.7); s.mesh(); s.render(size='8x8', device='cpu')"
             self.assertEqual(run(code, None, folder, flags=(), **user), "")
@@ -105,7 +105,7 @@ class Foreign(unittest.TestCase):
 
     def test_another_c_library(self):
         text = "Error loading shared library ld-linux-x86-64.so.2: No such file or directory (needed by libmeniscus.so)"
-        with mock.patch("platform.libc_ver", return_value=("", "")):  # as musl's Python has it
+        with mock.patch("platform.libc_ver", return_value=("", "")):  # musl's Python reports no version.
             self.assertRegex(why_not_loaded(str(LIBRARY), OSError(text)), "is for Linux with glibc, .* musl: build it here")
 
     def test_another_library(self):
@@ -127,7 +127,7 @@ class Foreign(unittest.TestCase):
 
 @unittest.skipUnless(importlib.util.find_spec("pip"), "pip is not installed")
 class Wheels(unittest.TestCase):
-    """Their names tell pip where they run; it refuses the others."""
+    """Names of wheels tell pip where they run; pip refuses all others."""
 
     def test_systems(self):
         with tempfile.TemporaryDirectory() as name:

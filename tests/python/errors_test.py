@@ -20,7 +20,7 @@ import meniscus
 from meniscus import _header, _library
 from structure_test import atoms, cif, gro, pdb
 
-#: What no message may have: options, C's constants, types and functions, and fields that the package calls otherwise.
+#: Words that no message may have: options, C's constants, types and functions, and fields with other names in Python.
 FOREIGN = re.compile(r"(?<![\w-])--\w|\bNULL\b|MENISCUS_|(?<!\x22)meniscus_\w|\b(large_)?probe_radius\b|\batom_colors\b|sizeof|struct\b|"
                      r"standard input|/tmp/meniscus-|size_t|\bstride\b")
 PSF = "PSF\n\n 1 !NTITLE\n x\n\n 1 !NATOM\n 1 A 1 LIG C1 CT 0.0 12.011 0\n\n 0 !NBOND: bonds\n"
@@ -171,7 +171,7 @@ class Provoked(unittest.TestCase):
             for text in re.findall(r'refuse\(\s*MENISCUS_\w+,\s*((?:"[^"]*"\s*)+)', path.read_text()):
                 table["".join(re.findall(r'"([^"]*)"', text))] = path.name
         self.assertGreater(len(table), 50)
-        # Those about pointers, structs and numbers of enumerations, which the package checks itself.
+        # The package itself checks pointers, structs and numbers of enumerations.
         own = re.compile(r"\{\}(\[\{\}\])? is NULL|not aligned|_stride|_type is|do not fit into memory|overlap|\.size is|asks for more|"
                          r"it has to be 0$|none of MENISCUS_|neither MENISCUS_|no table|no gradient|only for MENISCUS_MESH|MENISCUS_OPTIONS_INIT")
         left = [text for text in table if FOREIGN.search(_library.in_words_of_python(text)) and not own.search(text)]

@@ -25,7 +25,7 @@ MODULES = {"biopython": "Bio"}
 
 
 def members(kind):
-    """Functions and properties of a class itself, in their order."""
+    """Returns functions and properties of a class itself, in their order."""
     return [(name, getattr(kind, name)) for name, member in vars(kind).items() if not name.startswith("_")
             and (isinstance(member, (property, classmethod)) or inspect.isfunction(member))]
 
@@ -35,10 +35,10 @@ def fields(kind):
 
 
 def needed(text):
-    """The package that an example imports; "" if none or at hand."""
+    """Returns the package that an example imports, or "" if it imports none or the package is installed."""
     for module in re.findall(r">>> (?:import|from) (\w+)", text):
         spec = importlib.util.find_spec(module)
-        if spec is None or spec.origin is None:  # Debian has tests of ProDy alone
+        if spec is None or spec.origin is None:  # Debian has only the tests of ProDy.
             return module
     return ""
 

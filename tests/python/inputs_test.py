@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the package is given: errors in the words of the library, and numbers of other packages."""
+"""Inputs of the package: errors in the words of the library, and numbers of other packages."""
 import dataclasses
 import math
 import unittest
@@ -50,10 +50,10 @@ class Errors(unittest.TestCase):
 
 
 class Foreign(unittest.TestCase):
-    """Numbers of other packages become the numbers that they are, or are refused."""
+    """Numbers of other packages become plain numbers, or are refused."""
 
     class InNanometres:
-        """As pint has it."""
+        """A value with a unit in pint's form."""
         units = "nanometer"
 
         def __init__(self, values):

@@ -97,7 +97,7 @@ class NotebookTest(unittest.TestCase):
         cls.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]", state="attached")
 
     def run_cell(self, n):
-        """Runs cell n, and waits until it has ended. Its text."""
+        """Runs cell n, waits until it has ended, and returns its text."""
         cell = self.page.locator(".jp-Notebook .jp-Cell").nth(n)
         for attempt in range(5):  # JupyterLab makes cells anew while it loads
             try:
@@ -120,7 +120,7 @@ class NotebookTest(unittest.TestCase):
         return cell.locator(".jp-OutputArea-output").all_inner_texts()
 
     def frame_of(self, n):
-        """The page in the output of cell n, at rest."""
+        """Returns the page in the output of cell n, at rest."""
         cell = self.page.locator(".jp-Notebook .jp-Cell").nth(n)
         frame = cell.locator(".jp-OutputArea iframe")
         frame.wait_for()
@@ -132,7 +132,7 @@ class NotebookTest(unittest.TestCase):
         frame.wait_for_selector("#picture[data-rest=true]", state="attached")
 
     def picture(self, frame):
-        """What the page shows of the molecule."""
+        """Returns the page's picture of the molecule."""
         self.rest(frame)
         uri = frame.evaluate("""(() => { const v = window.meniscus; v.caster.present(linear_from_srgb(v.background));
             return v.canvas.toDataURL(); })()""")

@@ -26,7 +26,7 @@ class Threads(unittest.TestCase):
                     found[n].append(meniscus.surface(*clouds[n], threads=1 + n % 2).area)
                     shared.update(*clouds[n])
                     self.assertTrue(np.isfinite(shared.atom_areas).all())
-            except Exception as error:  # told by the thread that began them
+            except Exception as error:  # The main thread reports it.
                 faults.append(error)
 
         threads = [threading.Thread(target=work, args=(n,)) for n in range(8)]
@@ -39,7 +39,7 @@ class Threads(unittest.TestCase):
 
 
 class Elsewhere(unittest.TestCase):
-    """In another process, and when Python ends."""
+    """Surfaces in another process, and when Python ends."""
 
     def test_pickles_hold_atoms_and_options(self):
         xyz, radii = cloud(60, 3)
@@ -80,7 +80,7 @@ class Elsewhere(unittest.TestCase):
         self.assertEqual(s.area, later)
 
     def test_python_ends_without_a_word(self):
-        # Kept by a module that ends after the package's own.
+        # A module that ends after the package's own keeps the surface.
         code = ("import meniscus, numpy\ns = meniscus.surface([[0, 0, 0], [2, 0, 0]], 1.7)\n"
                 "numpy.kept = [s, s.mesh(0.3), s.render(size='20x20', device='cpu'), s.pockets(), meniscus.Scene()]\n")
         run = subprocess.run([sys.executable, "-c", f"import sys; sys.path[:0] = {sys.path!r}\n" + code], text=True,

@@ -21,7 +21,7 @@ class Pictures(unittest.TestCase):
         self.render_and_png(s, "cpu")
         try:
             s.render(size="8x8", device="software")
-        except meniscus.GpuError as error:  # of a wheel
+        except meniscus.GpuError as error:  # This package came from a wheel.
             self.assertIn("made without epoxy", str(error))
         else:
             self.render_and_png(s, "software")
@@ -35,7 +35,7 @@ class Pictures(unittest.TestCase):
         self.assertTrue(np.shares_memory(np.asarray(picture), pixels))
         np.testing.assert_array_equal(np.asarray(picture), pixels)
         self.assertAlmostEqual(pixels[..., 3].sum() / 255, math.pi * 25**2, delta=20)
-        self.assertLess(pixels[50, 50, 1], 30)  # but for the highlight
+        self.assertLess(pixels[50, 50, 1], 30)  # Green comes from the highlight alone.
         opaque = s.render(width=100, height=100, camera=camera, colors=[[0, 1, 0]], background="#0000ff", device=device)
         self.assertEqual(opaque.pixels[0, 0].tolist(), [0, 0, 255, 255])
         file = picture.png()

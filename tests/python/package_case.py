@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finds the package of package_test.py, and has atoms for its tests."""
+"""The package for package_test.py and atoms for its tests."""
 import os
 import sys
 

@@ -8,11 +8,11 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-#: The files with the tests.
+#: Names of the files with the tests.
 PARTS = ["surfaces_test", "inputs_test", "outputs_test", "objects_test"]
 
 if __name__ == "__main__":
-    # Blender hands its own arguments on.
+    # Blender passes its own arguments on.
     result = unittest.main(module=None, argv=["package_test", *PARTS], exit=False, verbosity=1).result
     sys.stdout.flush()
     os._exit(0 if result.wasSuccessful() and result.testsRun > 15 else 1) if "bpy" in sys.modules else sys.exit(

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pages of the Python package: of scenes and of surfaces, in files, frames and notebooks; MENISCUS_PROGRAM is the program that
-makes the same ones."""
+"""Pages of the Python package for scenes and surfaces, in files, frames and notebooks; MENISCUS_PROGRAM is the program
+that makes equal ones."""
 
 import html.parser
 import os
@@ -23,7 +23,7 @@ STILL = re.compile(r'<img id="still"[^>]*>')
 
 
 class Frames(html.parser.HTMLParser):
-    """The attributes of each iframe of a text, as a browser reads them."""
+    """The attributes of each iframe of a text, read like in a browser."""
 
     def __init__(self, text):
         super().__init__()
@@ -46,7 +46,7 @@ class Pages(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
-        # A few residues, under a name and with a residue that would be markup.
+        # The molecule has few residues, a name, and a residue name that would be markup.
         lines = UBIQUITIN.read_text().splitlines()
         atoms = [line for line in lines if line.startswith("ATOM")][:60]
         cls.molecule = cls.folder / 'a<b>&".pdb'
@@ -74,7 +74,7 @@ class Pages(unittest.TestCase):
         frame = frame_of(self.page._repr_html_())
         self.assertEqual(frame["srcdoc"], self.page.html)
         self.assertEqual((frame["width"], frame["height"]), ("100%", "321"))
-        self.assertEqual(frame["sandbox"], "allow-scripts allow-downloads")  # not the notebook's own origin
+        self.assertEqual(frame["sandbox"], "allow-scripts allow-downloads")  # The frame does not have the notebook's origin.
         self.assertEqual(frame_of(self.scene._repr_html_())["height"], "480")
         self.assertIsNone(meniscus.Scene()._repr_html_())
 
@@ -112,7 +112,7 @@ class Pages(unittest.TestCase):
             meniscus.Scene().show()
         with self.assertRaisesRegex(meniscus.UsageError, "frame_height is 0"):
             self.scene.show(frame_height=0)
-        # A notebook shows its picture then.
+        # A notebook then shows the picture.
         self.assertIsNone(nine._repr_html_())
         self.assertTrue(nine._repr_png_().startswith(b"\x89PNG"))
 

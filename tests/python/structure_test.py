@@ -24,7 +24,7 @@ PROGRAM = os.environ.get("MENISCUS_PROGRAM")
 
 
 def atoms(count=64):
-    """Residues of four atoms along a helix: name, element, residue name, chain, residue number, position."""
+    """Returns residues of four atoms along a helix: name, element, residue name, chain, residue number, position."""
     rows = []
     for n in range(count):
         name, element = (("N", "N"), ("CA", "C"), ("C", "C"), ("O", "O"))[n % 4]

@@ -51,7 +51,7 @@ class Numbers(unittest.TestCase):
 
     def test_types_and_strides_of_arrays(self):
         xyz, radii = chain(20)
-        xyz = np.round(xyz * 16) / 16  # as floats have them
+        xyz = np.round(xyz * 16) / 16  # These values fit floats exactly.
         expected = meniscus.surface(xyz, radii).area
         wide = np.zeros((20, 5))
         wide[:, 1:4] = xyz

@@ -64,7 +64,7 @@ BAD = {
 
 
 def mypy(path, folder):
-    """Line and text of each complaint."""
+    """Returns line and text of each complaint."""
     run = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--enable-incomplete-feature=Unpack", "--cache-dir",
                           str(folder / "cache"), str(path)], text=True, capture_output=True, cwd=PACKAGE,
                          env={**os.environ, "MYPYPATH": str(PACKAGE)})
@@ -74,7 +74,7 @@ def mypy(path, folder):
 
 
 def pyright_told(*arguments):
-    """It asks the first python of PATH where packages are."""
+    """Runs pyright, which finds packages by the first python of PATH."""
     path = os.pathsep.join([os.path.dirname(sys.executable), os.environ["PATH"]])
     run = subprocess.run([sys.executable, "-m", "pyright", "--outputjson", *arguments], text=True, capture_output=True,
                          env={**os.environ, "PYTHONPATH": str(PACKAGE), "PATH": path})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes BinaryCIF as its specification has it, for tests.
+// Writes BinaryCIF by its specification, for tests.
 #pragma once
 
 #include <bit>
@@ -13,7 +13,7 @@ namespace meniscus::test {
 
 using Json = nlohmann::json;
 
-/// Little-endian bytes of these numbers, and their type in ByteArray.
+/// Returns little-endian bytes of these numbers, and their type in ByteArray.
 template <typename Number>
 Json bytes_of(const std::vector<Number>& numbers) {
   std::vector<std::uint8_t> bytes;
@@ -34,14 +34,14 @@ Json bytes_of(const std::vector<Number>& numbers) {
 
 inline Json byte_array(int type) { return {{"kind", "ByteArray"}, {"type", type}}; }
 
-/// What was encoded in this order ends in ByteArray of a type.
+/// Returns an encoded column whose encodings end in ByteArray of a type.
 template <typename Number>
 Json data(const std::vector<Number>& numbers, int type, std::vector<Json> encodings = {}) {
   encodings.push_back(byte_array(type));
   return {{"data", bytes_of(numbers)}, {"encoding", encodings}};
 }
 
-/// Distinct texts, one after the other, and which of them each row has.
+/// Returns distinct texts, which `all` holds one after the other, and the number of each row's text.
 inline Json strings(const std::string& all, const std::vector<std::int32_t>& offsets,
                     const std::vector<std::int8_t>& places) {
   return {{"data", bytes_of(places)},
@@ -57,7 +57,7 @@ inline Json column(const std::string& name, const Json& values, const Json& mask
   return {{"name", name}, {"data", values}, {"mask", mask}};
 }
 
-/// A file of one block.
+/// Returns a file of one block.
 inline std::string binary_cif(const std::vector<Json>& categories) {
   const Json file = {{"encoder", "test"},
                      {"version", "0.3.0"},
@@ -66,8 +66,8 @@ inline std::string binary_cif(const std::vector<Json>& categories) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Three atoms that use every encoding: N, CA and an atom O without a B-factor, at x 1.5, -2.25, 300, y 0, 1, 2, z 0.5,
-/// 1.5, 2.5.
+/// Returns three atoms that use every encoding: N, CA and an atom O without a B-factor, at x 1.5, -2.25, 300, y 0, 1,
+/// 2, z 0.5, 1.5, 2.5.
 inline std::vector<Json> atom_columns() {
   const Json fixed = {{"kind", "FixedPoint"}, {"factor", 100}, {"srcType", 33}},
              delta = {{"kind", "Delta"}, {"origin", 150}, {"srcType", 3}},

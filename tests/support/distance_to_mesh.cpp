@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the nearest point of a triangle: that of its plane if it is inside, else one of an edge.
+// Finds the nearest point of a triangle: the projection on its plane if that is inside, else a point of an edge.
 #include "tests/support/distance_to_mesh.h"
 
 #include <algorithm>

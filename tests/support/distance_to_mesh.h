@@ -10,7 +10,7 @@
 
 namespace meniscus::testing {
 
-/// The largest distance of points from a mesh, Å. Of vertices of a finer mesh: how far the surface is from this one.
+/// Returns the largest distance of points from a mesh, Å. Vertices of a finer mesh give the surface's distance.
 double farthest_from(const TriangleMesh& mesh, const std::vector<glm::dvec3>& points);
 
 }  // namespace meniscus::testing

@@ -22,7 +22,7 @@ Balls balls_at(const std::vector<glm::dvec3>& points, double factor, double radi
   return balls;
 }
 
-// The distinct points that sign changes and cyclic permutations make of one.
+// Adds the distinct points that sign changes and cyclic permutations make of one.
 void add_cyclic(std::vector<glm::dvec3>& points, const glm::dvec3& x) {
   for (int turn = 0; turn < 3; ++turn)
     for (int signs = 0; signs < 8; ++signs) {
@@ -37,7 +37,7 @@ void add_cyclic(std::vector<glm::dvec3>& points, const glm::dvec3& x) {
     }
 }
 
-// Graphene in the plane: both atoms of the cell at lattice position (a, b).
+// Returns both atoms of a graphene cell at lattice position (a, b), in the plane.
 std::vector<glm::dvec2> graphene_cell(int a, int b) {
   const glm::dvec2 a1(1.5 * kBond, 0.5 * std::sqrt(3.0) * kBond), a2(1.5 * kBond, -0.5 * std::sqrt(3.0) * kBond);
   const glm::dvec2 origin = double(a) * a1 + double(b) * a2;

@@ -22,9 +22,9 @@ inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kCarbon = 1.7;
 inline constexpr double kWater = 1.4;
 
-/// Two atoms on the x axis, `distance` apart.
+/// Returns two atoms on the x axis, `distance` apart.
 Balls two_atoms(double distance, double radius_a = kCarbon, double radius_b = kCarbon);
-/// `count` atoms on the x axis.
+/// Returns `count` atoms on the x axis.
 Balls collinear(int count, double spacing, double radius = kCarbon);
 /// A planar regular polygon of given edge around the origin.
 Balls ring(int count, double edge, double radius = kCarbon);
@@ -38,10 +38,10 @@ Balls icosahedron(double edge, double radius = kCarbon);
 Balls c60(double edge = 1.45, double radius = kCarbon);
 /// Ideal (n, m) carbon nanotube: graphene of bond length 1.42 Å rolled up, `cells` translational cells long.
 Balls nanotube(int n, int m, int cells, double radius = kCarbon);
-/// Ideal graphene flake of bond length 1.42 Å: flat hexagons, n x n cells.
+/// Returns an ideal graphene flake of bond length 1.42 Å: flat hexagons, n x n cells.
 Balls graphene(int n, double radius = kCarbon);
 
-/// Uniformly random balls in a cube of side `box`; coordinates are multiples of `step` if step > 0 (to provoke ties).
+/// Returns uniformly random balls in a cube of side `box`; coordinates are multiples of `step` if step > 0 (ties).
 Balls gas(std::uint32_t seed, int count, double box, double smallest_radius, double largest_radius, double step = 0);
 
 /// The n-th of an endless list of gases: 5 to 200 balls, sparse to crowded, equal radii to five-fold ones, any probe
@@ -53,7 +53,7 @@ struct GasCase {
 };
 GasCase gas_case(std::uint32_t n);
 
-/// A molecule by name, for tests that go through all of them.
+/// A molecule with a name, for tests that go through all of them.
 struct NamedBalls {
   std::string name;
   Balls balls;
@@ -62,7 +62,7 @@ struct NamedBalls {
 /// Every degenerate molecule worth trying, small enough for hundreds of surfaces. Made once: names of tests ask often.
 const std::vector<NamedBalls>& degenerate_molecules();
 
-/// 1UBQ of Debian's freesasa (602 atoms) and 1TII of its pymol-data (5,469), without water, Bondi radii.
+/// Returns 1UBQ of Debian's freesasa (602 atoms); enterotoxin() is 1TII of pymol-data (5,469). No water, Bondi radii.
 Balls ubiquitin();
 Balls enterotoxin();
 

@@ -15,7 +15,7 @@ namespace {
 
 glm::dvec3 random_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  // Drawn one by one: the order of arguments is the compiler's, and every compiler must see the same points.
+  // Points are drawn one by one: compilers order arguments differently, and every compiler must see the same points.
   const double z = normal(random), y = normal(random), x = normal(random);
   return glm::normalize(glm::dvec3(x, y, z));
 }
@@ -35,14 +35,14 @@ Sphere sphere_of(const Surface& s, PatchKind kind, std::uint32_t patch) {
   return {c.center, s.probe_radius, {s.planes.data() + c.first_plane, c.plane_count()}};
 }
 
-// The least of plane.offset - dot(normal, x): positive inside.
+// Returns the least of plane.offset - dot(normal, x): positive inside.
 double depth(std::span<const Plane> planes, const glm::dvec3& x) {
   double least = 1e300;
   for (const Plane& plane : planes) least = std::min(least, plane.offset - glm::dot(plane.normal, x));
   return least;
 }
 
-// Signed distance of a point of the torus at direction e, from the axis and height to the nearest clip of a patch.
+// Returns the signed distance of a point of the torus at direction e, from the axis and height to the nearest clip.
 double torus_depth(const Surface& s, const ToroidalPatch& t, const glm::dvec3& e, double psi) {
   const double p = s.probe_radius, from_axis = t.radius - p * std::cos(psi), height = p * std::sin(psi);
   const auto contact_height = [&](std::uint32_t atom) {
@@ -64,14 +64,14 @@ PatchSample sample_torus(const Surface& s, std::uint32_t patch, bool siblings, s
   const ToroidalPatch& t = s.toroidal[patch];
   const double p = s.probe_radius;
   std::uniform_real_distribution<double> angle(-kPi, kPi), unit(0, 1);
-  // By area: the ring at tube angle psi (0 towards the axis) has radius |T - p cos psi|.
+  // Draws by area: the ring at tube angle psi (0 towards the axis) has radius |T - p cos psi|.
   double psi = 0;
   do psi = angle(random);
   while (unit(random) * (t.radius + p) > std::abs(t.radius - p * std::cos(psi)));
   const double theta = angle(random);
   const glm::dvec3 e = std::cos(theta) * t.start + std::sin(theta) * glm::cross(t.axis, t.start);
   double depth = torus_depth(s, t, e, psi);
-  // Patches are sorted by their atoms: those on the same circle are together.
+  // Patches are sorted by their atoms: those on one circle are together.
   if (siblings) {
     std::uint32_t other = patch;
     while (other > 0 && s.toroidal[other - 1].atom == t.atom) --other;

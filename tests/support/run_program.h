@@ -12,9 +12,9 @@
 
 namespace meniscus::test {
 
-/// The program under test; empty where it is not built.
+/// Returns the program under test; empty where it is not built.
 std::string meniscus_program();
-/// A file of the folder tests.
+/// Returns the path of a file in the folder tests.
 std::string test_file(const std::string& name);
 
 struct ProgramResult {
@@ -23,11 +23,11 @@ struct ProgramResult {
   std::string err;
 };
 
-/// Runs `program` with arguments, no shell between. It is killed after `limit_seconds`.
+/// Runs `program` with arguments, without a shell. It is killed after `limit_seconds`.
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           int limit_seconds = 60);
 
-/// The content of a file; fails the test if it cannot be read.
+/// Returns the content of a file; fails the test if it cannot be read.
 std::string read_bytes(const std::filesystem::path& path);
 
 /// A fresh folder that vanishes with this object.
@@ -41,17 +41,17 @@ class TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
   /// Writes a file of this name and returns its path.
   std::string file(const std::string& name, std::string_view content) const;
-  /// Names of all entries, sorted.
+  /// Returns the names of all entries, sorted.
   std::vector<std::string> entries() const;
 
  private:
   std::filesystem::path path_;
 };
 
-/// The bytes as one gzip member.
+/// Returns the bytes as one gzip member.
 std::string gzipped(std::string_view bytes);
 
-/// A program that goes on while the test does something else. It is killed with this object.
+/// A program that runs while the test goes on. It is killed with this object.
 class RunningProgram {
  public:
   RunningProgram(const std::string& program, const std::vector<std::string>& arguments);
@@ -59,12 +59,12 @@ class RunningProgram {
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
-  /// What it wrote so far.
+  /// Returns its output so far.
   std::string out() const { return read_bytes(folder_.path() / "out"); }
   std::string err() const { return read_bytes(folder_.path() / "err"); }
   /// Sends it SIGSTOP, SIGCONT or another signal.
   void signal(int number) const;
-  /// Waits for its end; it is killed after `limit_seconds`. Once.
+  /// Waits for its end and returns the result; it is killed after `limit_seconds`. Call it once.
   ProgramResult finish(int limit_seconds = 60);
 
  private:

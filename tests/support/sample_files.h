@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Molecules that packages of Debian bring.
+// Paths of molecules in packages of Debian.
 #pragma once
 
 namespace meniscus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether this build has AddressSanitizer, and what is different then. Limits of address space mean nothing: it maps
-// terabytes, and keeps what was freed. And whatever runs takes many times as long.
+// Tells whether this build has AddressSanitizer, and its effects. Limits of address space mean nothing: it maps
+// terabytes, and keeps freed memory. Everything takes many times as long.
 #pragma once
 
 namespace meniscus::test {
@@ -17,8 +17,8 @@ inline constexpr bool kSanitized = false;
 inline constexpr bool kSanitized = false;
 #endif
 
-/// So many random samples, or a quarter of them with sanitizers: these look at how each is computed. That all of them
-/// come out right is shown where they are cheap, without sanitizers.
+/// Returns a number of random samples, or a quarter of it with sanitizers: these test how each sample is computed.
+/// Tests without sanitizers, where samples are cheap, show that all come out right.
 constexpr int samples(int count) { return kSanitized ? (count + 3) / 4 : count; }
 
 }  // namespace meniscus::test

@@ -20,11 +20,11 @@ glm::dvec3 any_perpendicular(const glm::dvec3& n) {
   return glm::normalize(glm::cross(n, a));
 }
 
-// The point of a circle nearest to x. On the axis all are, but for rounding.
+// Returns the point of a circle nearest to x. On the axis all points are, but for rounding.
 glm::dvec3 nearest_on_circle(const glm::dvec3& x, const glm::dvec3& center, const glm::dvec3& axis, double radius) {
   constexpr double kOnAxis = 1e-12;  // Å
   glm::dvec3 across = x - center;
-  // Twice: near the axis what the first time leaves along it is not small beside what is across.
+  // Twice: near the axis the first step leaves a part along it that is not small compared with the part across.
   for (int n = 0; n < 2; ++n) across -= glm::dot(across, axis) * axis;
   const double length = glm::length(across);
   return center + radius * (length > kOnAxis ? across / length : any_perpendicular(axis));
@@ -43,7 +43,7 @@ SphereTracer::SphereTracer(std::span<const Ball> balls, double probe_radius, dou
   build_grid();
 }
 
-// Pairs of overlapping balls, by a sweep along x.
+// Finds pairs of overlapping balls by a sweep along x.
 void SphereTracer::find_blockers() {
   std::vector<std::uint32_t> order(spheres_.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -80,7 +80,7 @@ bool SphereTracer::covered(const glm::dvec3& x, std::span<const std::uint32_t> b
   return false;
 }
 
-// Keeps the circle where spheres i and j meet if part of it is exposed, and its exposed meetings with later spheres.
+// Keeps the circle of spheres i and j if part of it is exposed, and its exposed meetings with later spheres.
 void SphereTracer::find_circle(std::uint32_t i, std::uint32_t j) {
   const Sphere &a = spheres_[i], &b = spheres_[j];
   const glm::dvec3 between = b.center - a.center;
@@ -157,7 +157,7 @@ void SphereTracer::visit_cells(const glm::dvec3& low, const glm::dvec3& high, Vi
       for (int x = from.x; x <= to.x; ++x) visit(glm::ivec3(x, y, z));
 }
 
-// extent(item) -> {centre, half width}; distance(item, point) is how far the point is from the item.
+// extent(item) returns {centre, half width}, and distance(item, point) the distance of the point from the item.
 SphereTracer::CellList SphereTracer::fill_cells(std::size_t count, const auto& extent, const auto& distance) const {
   const double half_diagonal = 0.5 * std::sqrt(3.0) * cell_size_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> cell_and_item;
@@ -187,7 +187,7 @@ void SphereTracer::build_grid() {
   }
   if (spheres_.empty()) low = high = glm::dvec3(0.0);
   const glm::dvec3 size = high - low;
-  // With a large reach neighbouring cells hear of the same things; small ones would only hear of them more often.
+  // A large reach gives neighbouring cells the same items; smaller cells would only repeat them more often.
   cell_size_ = std::max({1.0, reach_ / 8, std::cbrt(size.x * size.y * size.z / 4e6)});
   grid_low_ = low;
   cells_ = glm::ivec3(glm::floor(size / cell_size_)) + 1;
@@ -259,7 +259,7 @@ double SphereTracer::cell_exit(const glm::dvec3& x, const glm::dvec3& direction)
     const double border = direction[k] > 0.0 ? std::floor(in_grid[k]) + 1.0 : std::floor(in_grid[k]);
     exit = std::min(exit, (border - in_grid[k]) * cell_size_ / direction[k]);
   }
-  return exit + 1e-9;  // into the next cell
+  return exit + 1e-9;  // The point lies in the next cell.
 }
 
 std::optional<TraceHit> SphereTracer::trace(const glm::dvec3& origin, const glm::dvec3& direction, double t_max,

@@ -27,7 +27,7 @@ struct NearestProbe {
   double distance = 0.0;                                   ///< Å; capped at SphereTracer::reach()
   glm::dvec3 center{0.0};                                  ///< a nearest probe position; only when distance < reach()
   PatchKind kind = PatchKind::convex;                      ///< touches one atom: convex, two: toroidal, three: concave
-  std::array<std::uint32_t, 3> atom{kNone, kNone, kNone};  ///< the touched atoms, ascending; the rest is kNone
+  std::array<std::uint32_t, 3> atom{kNone, kNone, kNone};  ///< the touched atoms, ascending, filled up with kNone
 };
 
 /// Where a ray enters the solid.
@@ -42,21 +42,21 @@ struct TraceHit {
 class SphereTracer {
  public:
   /// balls: vdW balls, any number, any degeneracy; probe_radius >= 0 in Å.
-  /// `margin` is how far beyond probe_radius nearest() still measures.
+  /// `margin` is the distance beyond probe_radius up to which nearest() measures.
   SphereTracer(std::span<const Ball> balls, double probe_radius, double margin = 0.25);
 
-  /// Distances are exact below this: probe_radius + margin.
+  /// Returns probe_radius + margin, below which distances are exact.
   double reach() const { return reach_; }
 
-  /// dist(x, A), capped at reach(); 0 when x is in A. x is on the surface where this equals probe_radius
+  /// Returns dist(x, A), capped at reach(); 0 when x is in A. x is on the surface where this equals probe_radius
   /// (p > 0). Accuracy about 1e-13 Å; where four or more spheres meet within 1e-9 Å, about 1e-5 Å.
   NearestProbe nearest(const glm::dvec3& x) const;
 
-  /// The signed distance to the union of the balls B(c_i, r_i + p) where x is outside of it (> 0), capped at reach();
-  /// <= 0 inside.
+  /// Returns the signed distance to the union of the balls B(c_i, r_i + p) where x is outside of it (> 0), capped at
+  /// reach(); <= 0 inside.
   double outside(const glm::dvec3& x) const;
 
-  /// The first point of the solid on origin + t * direction, t in [0, t_max], to `tolerance` Å of distance.
+  /// Returns the first point of the solid on origin + t * direction, t in [0, t_max], to `tolerance` Å of distance.
   /// direction has unit length. A ray that starts inside the solid hits at t = 0.
   std::optional<TraceHit> trace(const glm::dvec3& origin, const glm::dvec3& direction, double t_max = 1e6,
                                 double tolerance = 1e-9) const;
@@ -78,7 +78,7 @@ class SphereTracer {
     glm::dvec3 center{0.0};
     std::array<std::uint32_t, 3> atom{};
   };
-  /// For every grid cell the items within reach of it.
+  /// Items within reach of every grid cell.
   struct CellList {
     std::vector<std::uint32_t> first, item;
     std::span<const std::uint32_t> at(std::size_t cell) const;

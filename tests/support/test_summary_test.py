@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The summary of test runs: every way to be skipped is named, and what must not pass does not."""
+"""The summary of test runs names every reason to be skipped, and fails where it must."""
 
 import pathlib
 import subprocess

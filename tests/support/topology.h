@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stays the same when a molecule is moved, reordered or mirrored, as one comparable sentence.
+// One comparable sentence of everything that stays when a molecule is moved, reordered or mirrored.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace meniscus::testing {
 
-/// All counts, and kind and Euler number of every component in a fixed order.
+/// Returns all counts, and kind and Euler number of every component in a fixed order.
 std::string topology_of(const Surface& surface);
 
 }  // namespace meniscus::testing

@@ -12,7 +12,7 @@ HEADINGS = ("decisions", "triangles", "area", "volume", "numbers", "points", "re
 
 
 def rows(path):
-    """{name: {heading: words}} of a table."""
+    """Returns {name: {heading: words}} of a table."""
     table = {}
     with open(path, encoding="ascii") as file:
         for line in file:

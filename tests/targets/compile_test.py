@@ -18,7 +18,7 @@ TARGETS = ("aarch64-linux-gnu.2.28", "x86_64-windows-gnu", "aarch64-macos.13.0")
 FILES = ["core/surface/fixed_probes.cpp"] if FEW else [
     "app/film/film.cpp", "app/process/program_main.cpp", "core/base/output_file.cpp", "core/reduced_surface/contour/contour.cpp",
     "core/surface/fixed_probes.cpp", "core/render/cpu/lanes_16.cpp"]
-#: One file for Windows, and one for the others.
+#: Each file exists for Windows and for the others.
 BY_SYSTEM = ["app/msms/local_socket_{}.cpp", "app/process/child_process_{}.cpp", "app/process/system_process_{}.cpp",
              "core/base/system_file_{}.cpp"]
 #: Headers that are the same on every system.

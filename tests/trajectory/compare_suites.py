@@ -37,20 +37,20 @@ import MDAnalysis
 import parmed
 
 FAULTS = (Exception,) + ((chemfiles.ChemfilesError,) if chemfiles else ())  # chemfiles' own errors are not exceptions to Python
-SECONDS = 120  # the longest that one file may take
+SECONDS = 120  # the longest time for one file
 STRUCTURES = (".pdb", ".ent", ".cif", ".mmcif")
 TRAJECTORIES = (".xtc", ".trr", ".dcd", ".nc", ".ncdf", ".ncrst", ".lammpstrj", ".rst7", ".inpcrd", ".restrt", ".crd", ".coor", ".mdcrd", ".trj")
 TOPOLOGIES = (".psf", ".prmtop", ".parm7", ".top")
-# chemfiles' own names of formats, for endings that it does not know
+# Names of formats in chemfiles, for endings that it does not know.
 OF_CHEMFILES = {".xtc": "XTC", ".trr": "TRR", ".dcd": "DCD", ".nc": "Amber NetCDF", ".ncdf": "Amber NetCDF", ".ncrst": "Amber Restart",
                 ".lammpstrj": "LAMMPS"}
-# MDAnalysis' names of formats whose ending is used by several
+# Names of formats in MDAnalysis whose ending is used by several.
 OF_MDANALYSIS = {".crd": ("CRD", "INPCRD", "TRJ"), ".rst7": ("RESTRT",), ".restrt": ("RESTRT",), ".inpcrd": ("INPCRD",), ".coor": ("COOR",),
                  ".mdcrd": ("MDCRD",), ".trj": ("TRJ", "TRR"), ".lammpstrj": ("LAMMPSDUMP",)}
 
 
 class Refused(Exception):
-    """A reader takes the file for a bad one."""
+    """A reader refuses the file."""
 
 
 def run(*command):
@@ -72,7 +72,7 @@ def ending_of(path):
 # --- PDB and mmCIF: every atom of every model, with gemmi ---------------------------------------------------------------------------------
 
 def our_atoms(path):
-    """(model, chain, residue number, insertion code, residue, atom, position) -> element, of each atom."""
+    """Returns {(model, chain, residue number, insertion code, residue, atom, position): element} of all atoms."""
     rows = [line.split("\t") for line in run(BUILD / "tests/trajectory/atom_dump", path, 0).splitlines()]
     atoms, places = [row for row in rows if row[0] == "atom"], [row for row in rows if row[0] == "place"]
     return [((int(place[4]), atom[5], int(atom[3]), atom[6].strip("\0 ?."), atom[2], atom[1], *(round(float(x), 3) for x in place[1:4])), int(atom[7]))
@@ -189,7 +189,7 @@ def frames_of_chemfiles(path, ending):
         trajectory = chemfiles.Trajectory(str(path), "r", OF_CHEMFILES[ending])
 
         def positions(number):
-            frame = trajectory.read_step(number)  # its positions are gone with it
+            frame = trajectory.read_step(number)  # Its positions vanish with it.
             return np.array(frame.positions)
 
         return trajectory.nsteps, positions
@@ -201,7 +201,7 @@ def compare_trajectory(path):
     ending = ending_of(path)
     atoms = None
     if ending in (".mdcrd", ".trj", ".crd"):
-        # Amber's old format does not say how many atoms it has: a topology beside it does.
+        # Amber's old format has no number of atoms, so a topology in its folder gives it.
         for topology in sorted(path.parent.glob("*")):
             if ending_of(topology) in (".prmtop", ".parm7", ".top"):
                 try:
@@ -240,7 +240,7 @@ def compare_trajectory(path):
 # --- radii: ProtOr, with FreeSASA ----------------------------------------------------------------------------------------------------------------
 
 def compare_radii(path):
-    """FreeSASA writes a PDB file whose occupancies are the radii that it used."""
+    """Compares radii with a PDB file of FreeSASA, whose occupancies are the radii that it used."""
     theirs = {}
     for line in run("freesasa", "--radii=protor", "-S", "-n", 10, "--format=pdb", path).splitlines():
         if line.startswith("ATOM"):
@@ -249,7 +249,7 @@ def compare_radii(path):
     count, others = 0, []
     for row in csv.DictReader(table.splitlines()):
         key = row["chain"], row["number"] + row["icode"], row["name"]
-        if row["class"] == "polymer" and theirs.get(key):  # FreeSASA gives 0 to what it does not know
+        if row["class"] == "polymer" and theirs.get(key):  # FreeSASA gives 0 to unknown atoms.
             count += 1
             if abs(float(row["radius"]) - theirs[key]) > 0.005:
                 others.append((row["residue"], row["name"], float(row["radius"]), theirs[key]))
@@ -257,7 +257,7 @@ def compare_radii(path):
 
 
 def compare_molecules(path):
-    """The rows of compare_readers.py, one reader after the other; what one of them takes must agree."""
+    """Makes the rows of compare_readers.py, reader by reader; molecules that one of them accepts must agree."""
     rows, remarks = collections.defaultdict(collections.Counter), []
     with tempfile.TemporaryDirectory() as folder:
         molecules.FOLDER = folder
@@ -273,7 +273,7 @@ def compare_molecules(path):
 # --- the table -------------------------------------------------------------------------------------------------------------------------------------
 
 def kinds_of(path):
-    """The comparisons that a file takes part in."""
+    """Returns the comparisons that a file takes part in."""
     ending = ending_of(path)
     if ending in STRUCTURES and gemmi:
         yield "PDB, mmCIF / gemmi", compare_structure
@@ -292,7 +292,7 @@ def kinds_of(path):
 
 
 def unpacked(path, folder):
-    """The file as it is, or what gzip packed. gemmi and Meniscus read it either way; others do not."""
+    """Returns the file itself, or its unpacked content: gemmi and Meniscus read both, others do not read gzip."""
     if path.suffix != ".gz":
         return path
     target = pathlib.Path(folder) / path.name[:-3]

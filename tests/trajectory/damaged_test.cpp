@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged trajectories: whatever happens to the bytes, reading ends in frames of finite numbers or in one of our
-// errors, and never asks for much memory.
+// Reading damaged trajectories ends in frames of finite numbers or in one of our errors, whichever bytes are damaged,
+// and never takes much memory.
 #include <sys/resource.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ std::size_t below(Random& random, std::size_t bound) {
   return std::uniform_int_distribution<std::size_t>(0, bound - 1)(random);
 }
 
-/// Overwrites a byte or a number of four bytes with one that readers may stumble over, cuts, takes out, repeats.
+/// Damages a file: overwrites a byte or four with awkward numbers, cuts, takes out, repeats.
 void damage(std::string& bytes, Random& random) {
   static const std::string kNumbers[] = {std::string(4, '\0'), "\xff\xff\xff\xff",  "\x7f\xff\xff\xff",
                                          "\x80\x00\x00\x00"s,  "\xff\xff\xff\x7f",  "\x00\x00\x00\x80"s,
@@ -55,7 +55,7 @@ void damage(std::string& bytes, Random& random) {
   }
 }
 
-/// No more memory than the process has and 256 MB, for the life of this object; no bound in a build with sanitizers.
+/// Limits memory to 256 MB more than the process has, for the life of this object; not in a build with sanitizers.
 class BoundedMemory {
  public:
   BoundedMemory() {

@@ -69,7 +69,7 @@ TEST(Dcd, EveryLayoutReadsTheSameInAnyOrder) {
   }
 }
 
-// A step of 1 fs or 0.4 ps as a float, by the unit's constants of several programs, is that and nothing near it.
+// A step of 1 fs or 0.4 ps as a float, by the unit's constants of several programs, is exactly that time.
 TEST(Dcd, TimesAreThoseThatPeopleKnow) {
   const TemporaryFolder folder;
   for (const double unit : {4.888821e-2, 4.88882129e-2, 4.8888211e-2}) {
@@ -92,7 +92,7 @@ TEST(Dcd, BoxesInEveryForm) {
     trajectory->read(1, frame);
     return frame.cell;
   };
-  // Edges 10, 20, 30 and angles alpha 90, beta 60, gamma 120, as degrees and as cosines.
+  // The cells have edges 10, 20, 30 and angles alpha 90, beta 60, gamma 120, as degrees and as cosines.
   for (const auto& cell : {cell_of({10, 120, 20, 60, 90, 30}, 24), cell_of({10, -0.5, 20, 0.5, 0.0, 30}, 24)}) {
     ASSERT_TRUE(cell);
     EXPECT_NEAR(glm::length((*cell)[1]), 20.0, 1e-12);
@@ -207,10 +207,10 @@ TEST(Dcd, ChangesWhileOpenAreErrors) {
   const std::string bytes = dcd({});
   const auto trajectory = open_bytes(folder, bytes);
   Frame frame;
-  folder.file("a.dcd", bytes + bytes.substr(bytes.size() - 72));  // a simulation goes on: one frame more
+  folder.file("a.dcd", bytes + bytes.substr(bytes.size() - 72));  // A simulation goes on by one frame.
   trajectory->read(2, frame);
   EXPECT_EQ(trajectory->frame_count(), 3U);
-  folder.file("a.dcd", dcd({.atoms = 9, .frames = 9}));  // another one writes again
+  folder.file("a.dcd", dcd({.atoms = 9, .frames = 9}));  // Another simulation writes the file again.
   EXPECT_NE(refusal([&] { trajectory->read(0, frame); }).find("was changed while it was read"), std::string::npos);
   folder.file("a.dcd", "short");
   EXPECT_NE(refusal([&] { trajectory->read(2, frame); }).find("became shorter"), std::string::npos);

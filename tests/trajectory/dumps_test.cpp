@@ -49,7 +49,7 @@ TEST(Mdcrd, FramesOfEveryLayout) {
   const TemporaryFolder folder;
   for (const int atoms : {1, 2, 4, 10, 20}) {
     for (const std::string& box : {std::string(), std::string("  20.000  30.000  40.000\n")}) {
-      if (atoms == 1 && !box.empty()) continue;  // a box is as long as an atom
+      if (atoms == 1 && !box.empty()) continue;  // A box is as long as an atom.
       const std::string text = mdcrd(atoms, 3, box);
       for (const std::string& written : {text, with_returns(text), text + "\n \n", text.substr(0, text.size() - 1)}) {
         const auto trajectory = open_mdcrd(folder.file("a.mdcrd", written), static_cast<std::size_t>(atoms));
@@ -139,7 +139,7 @@ TEST(LammpsDump, CutFilesGiveTheirWholeFrames) {
   const TemporaryFolder folder;
   const std::string whole = lammps("id x y z", kFirst, kSecond);
   const std::size_t one = whole.find("ITEM: TIMESTEP", 10);
-  // A last line that has all columns is an atom, if one of which the last number may be cut.
+  // A last line with all columns would be an atom, even if its last number is cut.
   for (std::size_t length = one + 1; length < whole.size() - 1; ++length) {
     const auto trajectory = open_trajectory(folder.file("a.lammpstrj", whole.substr(0, length)));
     EXPECT_EQ(trajectory->frame_count(), 1u) << length;
@@ -149,7 +149,7 @@ TEST(LammpsDump, CutFilesGiveTheirWholeFrames) {
     const auto trajectory = open_trajectory(folder.file("a.lammpstrj", whole.substr(0, size - 1)));
     EXPECT_EQ(trajectory->frame_count(), size == one ? 1u : 2u);
     EXPECT_EQ(trajectory->cut_short(), "");
-    ASSERT_EQ(trajectory->warnings().size(), 2u);  // the other: no units
+    ASSERT_EQ(trajectory->warnings().size(), 2u);  // The other warning says that units are missing.
     expect_words(trajectory->warnings().back().text, "its last line has no line end; if the file was cut there");
     Frame frame, same;
     trajectory->read(trajectory->frame_count() - 1, frame);

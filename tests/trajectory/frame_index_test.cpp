@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kept index: used while the file is as it was, built again otherwise, never in the way.
+// The kept index is used while its file is unchanged, is built again otherwise, and never gets in the way.
 #include <chrono>
 #include <filesystem>
 
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::TemporaryFolder;
 
-/// Writes the trajectory as if an hour ago: indices of files that changed just now are not kept.
+/// Writes the trajectory with an earlier time: indices of files that changed just now are not kept.
 std::string write_old(const TemporaryFolder& folder, const std::string& bytes, int hours = 1) {
   const std::string path = folder.file("a.xtc", bytes);
   fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(hours));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists of frames: every way to write one, every way to write it wrong.
+// Lists of frames in every correct and every wrong form.
 #include "core/trajectory/frame_list.h"
 
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program says of trajectories: `info`, and a trajectory given where a molecule should be.
+// Messages about trajectories: `info`, and a trajectory in place of a molecule.
 #include <gtest/gtest.h>
 
 #include "tests/support/run_program.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paths between structures keep bonds and hands, let nothing pass through anything, and begin and end where they
-// should.
+// Paths between structures keep bonds and hands, let nothing pass through anything, and have the right ends.
 #include "core/trajectory/morph.h"
 
 #include <algorithm>
@@ -19,7 +18,7 @@
 namespace meniscus {
 namespace {
 
-/// Ubiquitin, residues from `hinge` on turned by an angle about an axis through its alpha carbon.
+/// Returns ubiquitin with residues from `hinge` on turned by an angle about an axis through its alpha carbon.
 Structure bent(int hinge, double angle) {
   Structure structure = read_structure(kUbiquitin, {});
   glm::dvec3 middle(0.0);
@@ -40,7 +39,7 @@ Morph morph_of(const std::vector<Structure>& structures, std::vector<std::vector
   return Morph(common_atoms(structures, fitted));
 }
 
-/// Of N, C and CB around each alpha carbon.
+/// Returns the signed volumes of N, C and CB around each alpha carbon.
 std::vector<double> hands(const std::vector<Atom>& atoms, const std::vector<glm::dvec3>& x) {
   std::vector<double> found;
   for (std::size_t a = 0; a + 4 < atoms.size(); ++a)
@@ -74,7 +73,7 @@ TEST(Morphs, ADomainTurnsAsABody) {
     }
     const std::vector<double> here = hands(morph.atoms(), now);
     for (std::size_t c = 0; c < hand.size(); ++c) EXPECT_GT(here[c] * hand[c], 0.0) << n;
-    // The body that stays, and steps of the end that turns: on a straight line they would be shorter in the middle.
+    // One body stays, and the other turns in steps: on a straight line they would be shorter in the middle.
     double moved = 0.0, longest = 0.0;
     for (std::size_t a = 0; a < now.size(); ++a) {
       if (morph.atoms()[a].residue_number < 60) moved = std::max(moved, glm::distance(now[a], morph.at(0)[a]));
@@ -114,7 +113,7 @@ TEST(Morphs, NothingPassesThroughAnything) {
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 4; b < 8; ++b) nearest = std::min(nearest, glm::distance(now[a], now[b]));
   EXPECT_GT(nearest, 0.8 * 3.4 - 0.1);
-  // What does is told: on the straight way they meet.
+  // Overlap is reported: on the straight way the chains meet.
   std::vector<glm::dvec3> straight;
   for (std::size_t a = 0; a < 8; ++a) straight.push_back(0.5 * (morph.at(0)[a] + morph.at(1)[a]));
   EXPECT_GT(morph.overlap(0, straight), 2.0);

@@ -51,10 +51,10 @@ TEST(Xtc, PackedAndPlainAtomsInAnyOrder) {
   }
 }
 
-/// Where the second frame of the XTC sample begins.
+/// Returns the place of the second frame in the XTC sample.
 std::size_t second_frame() { return test::xtc({.frames = 1}).size(); }
 
-/// The XTC sample with a number put into the header of its second frame.
+/// Returns the XTC sample with a number put into the header of its second frame.
 template <typename Number>
 std::string hostile(std::size_t place, Number number) {
   std::string bytes = test::xtc({});
@@ -111,7 +111,7 @@ TEST(Xtc, OverwrittenBitsAreNoticed) {
     const std::string message = refusal([&] { trajectory->read(0, frame); });
     noticed += message.find("frame 0 at byte 0 ") != std::string::npos;
   }
-  EXPECT_GT(noticed, kTrials / 3);  // not all, for the format has no checksum
+  EXPECT_GT(noticed, kTrials / 3);  // Some damage stays unnoticed, for the format has no checksum.
 }
 
 TEST(Xtc, HeadersThatLeadNowhereEndTheTrajectory) {
@@ -135,7 +135,7 @@ TEST(Xtc, HeadersThatLeadNowhereEndTheTrajectory) {
             std::string::npos);
 }
 
-/// Cuts a file everywhere: whole frames are read as ever, and the cut is told. ends: where frames end.
+/// Cuts a file everywhere: whole frames are read as before, and a warning reports the cut. ends: where frames end.
 void expect_cuts(const std::string& name, const std::string& bytes, const std::vector<std::size_t>& ends) {
   const TemporaryFolder folder;
   const auto whole = open_trajectory(folder.file("whole-" + name, bytes));
@@ -153,7 +153,7 @@ void expect_cuts(const std::string& name, const std::string& bytes, const std::v
     cut->read(frames - 1, frame);
     EXPECT_EQ(frame.positions, expected.positions);
     EXPECT_EQ(frame.cell, expected.cell);
-    // The header of NetCDF tells how many there should be.
+    // NetCDF's header states the number of frames.
     const bool seems_whole = name != "a.nc" && length == ends[frames - 1];
     EXPECT_EQ(cut->cut_short().empty(), seems_whole) << length;
   }

@@ -31,7 +31,7 @@ glm::dmat3 rotation() {
   return glm::mat3_cast(glm::normalize(glm::dquat(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))));
 }
 
-/// Boxes as simulations have them and worse: cubic, triclinic, flat, long, badly reduced.
+/// Returns boxes like those of simulations and worse: cubic, triclinic, flat, long, badly reduced.
 glm::dmat3 any_cell() {
   const double a = uniform(5, 50), b = uniform(5, 50), c = uniform(5, 50);
   glm::dmat3 cell(glm::dvec3(a, 0, 0), glm::dvec3(uniform(-2 * a, 2 * a), b, 0),
@@ -102,7 +102,7 @@ TEST(Superpose, NothingFitsBetter) {
   }
 }
 
-/// Atoms of a structure that is cut at the faces of a box, and the box.
+/// A structure that is cut at the faces of a box, its whole form, and the box.
 struct Cut {
   std::vector<Atom> atoms;
   std::vector<glm::dvec3> whole, cut;
@@ -186,7 +186,7 @@ TEST(WholeMolecules, PartnersGatherAroundTheLargest) {
 }
 
 TEST(WholeMolecules, Refusals) {
-  std::vector<Atom> atoms(3);  // of one residue
+  std::vector<Atom> atoms(3);  // atoms of one residue
   const auto complaint = [&](const std::vector<Bond>& bonds, const glm::dmat3& cell) -> std::string {
     std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     try {
@@ -203,7 +203,7 @@ TEST(WholeMolecules, Refusals) {
   EXPECT_NE(complaint({{0, 1}, {1, 2}, {2, 0}}, glm::dmat3(3.0)).find("image of their own"), std::string::npos);
 }
 
-/// Frames made by a formula, one of which cannot be read.
+/// A trajectory made by a formula, with one frame that cannot be read.
 class MadeUp : public Trajectory {
  public:
   explicit MadeUp(std::uint64_t frames) : Trajectory("made-up", "formula") {
@@ -247,7 +247,7 @@ TEST(PreparedFrames, MeansOverWindowsThatAreReflectedAtTheEnds) {
   }
 }
 
-/// Frames that tremble about a steady way.
+/// A trajectory whose atoms tremble about a steady way.
 class Trembling : public Trajectory {
  public:
   explicit Trembling() : Trajectory("trembling", "formula") {
@@ -270,7 +270,7 @@ TEST(PreparedFrames, NothingJerksAtTheEnds) {
   frames.read(0, before);
   for (std::uint64_t number = 1; number < 40; ++number) {
     frames.read(number, frame);
-    // A step of the mean: what comes in is nine frames from what goes out.
+    // The mean moves by a step: the frame that comes in is nine frames from the one that goes out.
     EXPECT_NEAR(frame.positions[0].x - before.positions[0].x, 0.2, 2.0 * 0.5 / 9.0 + 1e-12) << number;
     before = frame;
   }
@@ -285,7 +285,7 @@ TEST(PreparedFrames, AWindowLongerThanTheRunIsTheRun) {
   frames.read(1, frame);
   for (std::size_t a = 0; a < 5; ++a) {
     const glm::dvec3 first = MadeUp::at(0, a), middle = MadeUp::at(1, a), last = MadeUp::at(2, a);
-    // -1, 0, 1, 2, 3 with both ends reflected
+    // The frames are -1, 0, 1, 2, 3, with both ends reflected.
     const glm::dvec3 sum = (2.0 * first - middle) + first + middle + last + (2.0 * last - middle);
     EXPECT_LT(glm::distance(frame.positions[a], sum / 5.0), 1e-12);
   }
@@ -303,7 +303,7 @@ TEST(PreparedFrames, TheSameInAnyOrder) {
   Frame frame;
   for (std::uint64_t n = 30; n-- > 0;) {
     backward.read(n, frame);
-    EXPECT_EQ(frame.positions, first[n].positions) << n;  // to the last bit
+    EXPECT_EQ(frame.positions, first[n].positions) << n;  // Both agree to the last bit.
   }
 }
 
@@ -380,7 +380,7 @@ TEST(ReadAhead, NeverFartherAheadThanAsked) {
       ahead.next();
       EXPECT_LE(made, taken + 1 + 3 + 1);
     }
-  }  // it stops although most was never asked for
+  }  // Reading stops although most frames were never requested.
   EXPECT_LT(made, 20);
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Amber topologies are read as MDAnalysis, MDTraj and ParmEd read them: prmtop_test.py ATOM_DUMP MENISCUS PRMTOP."""
+"""Amber topologies are read like in MDAnalysis, MDTraj and ParmEd: prmtop_test.py ATOM_DUMP MENISCUS PRMTOP."""
 
 import pathlib
 import re
@@ -21,7 +21,7 @@ dump_program = meniscus_program = topology_file = None
 
 
 def dump(path):
-    """The atoms, a list of words each, and the set of bonds."""
+    """Returns the atoms, a list of words each, and the set of bonds."""
     text = subprocess.run([dump_program, str(path)], check=True, capture_output=True, text=True).stdout
     rows = [line.split("\t") for line in text.splitlines()]
     return ([row[1:] for row in rows if row[0] == "atom"],
@@ -47,7 +47,7 @@ class Prmtop(unittest.TestCase):
         return text
 
     def test_atoms_and_bonds_are_those_of_other_readers(self):
-        """Three residues, two waters and three ions, which ParmEd wrote from a topology of GROMACS."""
+        """ParmEd wrote three residues, two waters and three ions from a topology of GROMACS."""
         atoms, bonds = dump(topology_file)
         theirs = parmed.load_file(str(topology_file))
         self.assertEqual(len(atoms), 65)
@@ -73,7 +73,7 @@ class Prmtop(unittest.TestCase):
         self.assertEqual(bonds, sorted(tuple(sorted((a.index, b.index))) for a, b in traj.bonds))
 
     def test_a_file_that_leap_wrote(self):
-        """Crambin, with its disulfide bridges: lines end in blanks up to the 80th column."""
+        """The file holds crambin with its disulfide bridges; its lines end in blanks up to the 80th column."""
         atoms, bonds = dump(CRAMBIN)
         theirs = parmed.load_file(CRAMBIN)
         self.assertEqual([(mine[0], mine[1], int(mine[2]), int(mine[6])) for mine in atoms],
@@ -84,7 +84,7 @@ class Prmtop(unittest.TestCase):
         self.assertEqual(sum(atoms[a][0] == atoms[b][0] == "SG" for a, b in bonds), 3)
 
     def test_elements_by_mass_where_there_are_no_numbers(self):
-        """As Amber before 12 writes them."""
+        """Amber before 12 writes such files."""
         atoms, bonds = dump(self.write("old.parm7", self.without("ATOMIC_NUMBER")))
         self.assertEqual((atoms, bonds), dump(topology_file))
 
@@ -107,7 +107,7 @@ class Prmtop(unittest.TestCase):
         return subprocess.run([meniscus_program, *map(str, words)], capture_output=True, text=True)
 
     def test_with_its_trajectory(self):
-        """Bondi's radii as for all topologies; those of generalized Born models where they are asked for."""
+        """Radii are Bondi's as for all topologies, or those of generalized Born models on request."""
         rng = np.random.default_rng(1)
         frames = np.cumsum(rng.normal(0, 1.2, (2, 65, 3)), axis=1)
         crd = parmed.amber.AmberMdcrd(str(self.write("a.mdcrd", "")), 65, False, "w")
@@ -151,7 +151,7 @@ class Prmtop(unittest.TestCase):
             said(self.text[:cut])
 
     def shortened(self, section, fields):
-        """Without so many of its last fields."""
+        """Returns the topology without so many last fields of a section."""
         begin = self.text.index(f"%FLAG {section}")
         end = self.text.index("%FLAG", begin + 1)
         return self.text[:begin] + self.text[begin:end].rstrip()[:-16 * fields] + "\n" + self.text[end:]

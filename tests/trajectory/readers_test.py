@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that MDAnalysis and MDTraj write are read as they read them, in any order: readers_test.py FRAME_DUMP PDB."""
+"""Files that MDAnalysis and MDTraj write give the same frames here, in any order: readers_test.py FRAME_DUMP PDB."""
 
 import pathlib
 import subprocess
@@ -25,8 +25,8 @@ dump_program = structure_file = None
 
 
 def dump(path, numbers=(), atoms=None):
-    """The frames of a file as frame_dump prints them: a dictionary of number, text, positions, cell, time each. atoms:
-    of a frame, for a format that does not say."""
+    """Returns the frames of a file as frame_dump prints them: a dictionary of number, text, positions, cell, time each.
+    atoms: their number in a frame, for formats that lack it."""
     arguments = [dump_program, str(path), *(["--atoms", str(atoms)] if atoms else []), *map(str, numbers)]
     text = subprocess.run(arguments, check=True, capture_output=True, text=True).stdout
     frames = []
@@ -75,7 +75,7 @@ class Readers(unittest.TestCase):
         return path
 
     def compare(self, frames, positions, boxes=None, times=None):
-        """Equal but for the rounding of single precision, in which the other programs compute."""
+        """Checks equality but for the rounding of single precision, in which the other programs compute."""
         self.assertEqual(len(frames), len(positions))
         for n, frame in enumerate(frames):
             self.assertEqual(frame["positions"].shape, positions[n].shape)
@@ -87,7 +87,7 @@ class Readers(unittest.TestCase):
                 self.assertAlmostEqual(frame["time"], times[n], places=4)
 
     def check(self, path, boxes=True, times=True, **options):
-        """Compares with MDAnalysis, and any order with the order of the file."""
+        """Compares with MDAnalysis, and reading in any order with the order of the file."""
         frames = dump(path)
         other = MDAnalysis.coordinates.core.reader(str(path), **options)
         read = [(step.positions.copy(), np.copy(step.dimensions), step.time) for step in other]
@@ -127,7 +127,7 @@ class Readers(unittest.TestCase):
         walker = MDAnalysis.Universe.empty(200, trajectory=True)
         path = self.path("walk.xtc")
         with MDAnalysis.Writer(str(path), n_atoms=200, precision=6) as writer:
-            for size in range(9, 73):  # the table of sizes grows by the cube root of 2
+            for size in range(9, 73):  # The table of sizes grows by the cube root of 2.
                 step = 1e-5 * 2 ** (size / 3) / 2
                 walker.atoms.positions = np.cumsum(rng.uniform(-step, step, (200, 3)), axis=0)
                 writer.write(walker.atoms)
@@ -184,7 +184,7 @@ class Readers(unittest.TestCase):
         self.assertIn("names 'feet' as a unit where MDTraj writes nanometers", said)
 
     def test_mdcrd(self):
-        """Written by MDTraj and by ParmEd, with a box and without, of numbers of atoms whose lines are all full too."""
+        """MDTraj and ParmEd write files with a box and without, also with numbers of atoms whose lines are all full."""
         for count, box in ((len(self.atoms), True), (len(self.atoms), False), (10, False), (20, True), (1, False)):
             positions = np.array(self.motion, np.float32)[:, :count]
             lengths = np.array(self.boxes)[:, :3]
@@ -192,7 +192,7 @@ class Readers(unittest.TestCase):
             with mdtraj.formats.MDCRDTrajectoryFile(str(path), mode="w", force_overwrite=True) as file:
                 file.write(positions, lengths if box else None)
             frames = dump(path, atoms=count)
-            self.assertLess(np.abs(frames[3]["positions"] - self.motion[3][:count]).max(), 6e-4)  # three decimals
+            self.assertLess(np.abs(frames[3]["positions"] - self.motion[3][:count]).max(), 6e-4)  # The format has three decimals.
             with mdtraj.formats.MDCRDTrajectoryFile(str(path), n_atoms=count, has_box=box) as file:
                 self.compare(frames, file.read()[0])
             for frame, edges in zip(frames, lengths):
@@ -208,7 +208,7 @@ class Readers(unittest.TestCase):
                     by_parmed.add_box(lengths[place])
             by_parmed.close()
             again = dump(self.path(f"p{count}{box}.mdcrd"), atoms=count)
-            # It reads boxes of eight columns, and not those with blanks between that MDTraj writes.
+            # MDAnalysis reads boxes of eight columns, and not those with blanks between that MDTraj writes.
             other = MDAnalysis.coordinates.TRJ.TRJReader(str(self.path(f"p{count}{box}.mdcrd")), n_atoms=count)
             self.compare(again, [step.positions.copy() for step in other])
             self.assertEqual([frame["text"] for frame in again], [frame["text"] for frame in frames])
@@ -220,7 +220,7 @@ class Readers(unittest.TestCase):
         return frame
 
     def test_amber_restart(self):
-        """Written by ParmEd with and without velocities and a box, and by leap: crambin of bio3d."""
+        """ParmEd writes files with and without velocities and a box, and leap wrote crambin of bio3d."""
         for count in (len(self.atoms), 10, 1):
             for velocities in (False, True):
                 for box in (False, True):
@@ -254,8 +254,8 @@ class Readers(unittest.TestCase):
             self.one_frame(path)
 
     def lammps_dump(self, name, columns, low=(0, 0, 0), vectors=None, head=lambda n: ""):
-        """A dump as LAMMPS writes it, atoms in another order in each frame: the positions in it, with `low` as the corner
-        of the box whose vectors (rows, a along x) are given."""
+        """Writes a dump like LAMMPS, atoms in another order in each frame: the positions in it, with `low` as the
+        corner of the box whose vectors (rows, a along x) are given."""
         inside = np.array(self.motion) + 200
         vectors = np.diag([400.0, 410.0, 420.0]) if vectors is None else np.array(vectors, float)
         (xy, xz, yz), edges = (vectors[1][0], vectors[2][0], vectors[2][1]), np.diag(vectors)
@@ -283,7 +283,7 @@ class Readers(unittest.TestCase):
         return path, positions, vectors
 
     def test_lammps_dump(self):
-        """Every kind of columns and of boxes, against the numbers that were written, MDAnalysis and MDTraj."""
+        """Every kind of columns and boxes agrees with the written numbers, MDAnalysis and MDTraj."""
         inclined = [[400, 0, 0], [60, 410, 0], [-70, 50, 420]]
         for columns in ("id type x y z", "xu element yu zu id", "id xs ys zs ix", "type xsu ysu zsu id", "id x y z xu yu zu"):
             for low in ((0, 0, 0), (-30, 7, 11)):
@@ -299,7 +299,7 @@ class Readers(unittest.TestCase):
                         self.assertEqual(frame["text"].splitlines(), frames[frame["number"]]["text"].splitlines())
                     if columns.startswith("id type x"):
                         other = MDAnalysis.coordinates.LAMMPS.DumpReader(str(path))
-                        # It counts from the corner of the box.
+                        # MDAnalysis counts from the corner of the box.
                         self.compare(frames, [step.positions + np.array(low, np.float32) for step in other])
                         with mdtraj.formats.LAMMPSTrajectoryFile(str(path)) as file:
                             self.compare(frames, file.read()[0])
@@ -347,12 +347,12 @@ class Readers(unittest.TestCase):
         for write in (particles, value, raw, view):
             path = self.path(f"{write.__name__}.h5md")
             with h5py.File(path, "w") as file:
-                file.attrs["fill"] = np.zeros(4 * int(np.prod(shape)) // 1000, "u1")  # a plausible size
+                file.attrs["fill"] = np.zeros(4 * int(np.prod(shape)) // 1000, "u1")  # The file gets a plausible size.
                 write(file)
             self.assertNotEqual(subprocess.run([dump_program, str(path)], capture_output=True).returncode, 0, path)
 
     def test_damaged_h5md_is_one_line(self):
-        """The library would say at the end of the process what it lost of a damaged file."""
+        """The library must not report damage at the end of the process."""
         kept = pathlib.Path(__file__).parent.parent / "fuzz" / "crashes" / "h5md"
         for path in sorted(kept.iterdir()):
             said = subprocess.run([dump_program, str(path)], capture_output=True, text=True).stderr
@@ -378,7 +378,7 @@ class Readers(unittest.TestCase):
             positions.append(step.positions.copy())
             boxes.append(step.dimensions)
         self.compare(frames, positions)
-        for frame, box in zip(frames, boxes):  # GRO rounds its box to 1e-4 Å
+        for frame, box in zip(frames, boxes):  # GRO rounds its box to 1e-4 Å.
             np.testing.assert_allclose(triclinic_box(*frame["cell"]), box, rtol=0, atol=1e-3)
         for frame in dump(self.path("a.gro"), ORDER):
             self.assertEqual(frame["text"].splitlines(), frames[frame["number"]]["text"].splitlines())

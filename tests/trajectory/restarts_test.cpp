@@ -51,7 +51,7 @@ TEST(AmberRestart, PositionsBoxAndTimeOfAnyNumberOfAtoms) {
         for (int n = 0; n < 3 * atoms; ++n)
           EXPECT_EQ(frame.positions[static_cast<std::size_t>(n / 3)][n % 3], amber_number(n));
         EXPECT_EQ(frame.time, 2.5);
-        const bool either = atoms == 2 && !velocities;  // six numbers: velocities or a box
+        const bool either = atoms == 2 && !velocities;  // Six numbers may be velocities or a box.
         EXPECT_EQ(frame.cell.has_value(), !box.empty() && !either) << atoms << velocities;
         if (!frame.cell) continue;
         EXPECT_EQ(*frame.cell, glm::dmat3(20, 0, 0, 0, 30, 0, 0, 0, 40));
@@ -78,7 +78,8 @@ TEST(AmberRestart, CutAndDamagedFilesAreRefused) {
       EXPECT_EQ(frame.positions, all.positions) << length;
     });
     EXPECT_TRUE(length + 1 >= positions || said != "no error") << length;
-    if (length == positions + 42 || length == whole.size() - 5) {  // within a number of the velocities, and of the box
+    if (length == positions + 42 ||
+        length == whole.size() - 5) {  // cuts within a number of the velocities or of the box
       EXPECT_NE(said.find("is the file cut short?"), std::string::npos) << said;
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an exported run shares is found in one pass over its frames.
+// Common values of an exported run are found in one pass over its frames.
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kFrames = 2000;
 
-// Of this process, by whatever system call.
+// Returns the bytes that this process has read, by any system call.
 std::uint64_t bytes_read() {
   std::ifstream counts("/proc/self/io");
   std::string name;
@@ -55,7 +55,7 @@ TEST_F(RunFramings, ReadEachFrameOnce) {
   EXPECT_EQ(framing.extent.surface.high, glm::dvec3(0.375 + 1.5 + kFrames - 1) - glm::dvec3(0, 10, 20));
 }
 
-// A camera of a file asks for no pass, but the box of all atoms does.
+// A camera from a file needs no pass, but the box of all atoms does.
 TEST_F(RunFramings, HaveTheBoxBesideACameraOfTheirOwn) {
   FrameRun frames(molecule_, request_);
   const Camera camera{.position = {0, 0, 50}};
@@ -71,7 +71,7 @@ TEST_F(RunFramings, FluctuationsAreThoseOfEvenSteps) {
   FrameRun frames(molecule_, request_);
   const double expected = std::sqrt(3.0 * (double{kFrames} * kFrames - 1.0) / 12.0);
   for (const double fluctuation : fluctuations(frames)) EXPECT_NEAR(fluctuation, expected, 1e-9 * expected);
-  // Fitted to the reference, a body that only moves has none.
+  // A body that only moves does not fluctuate when it is fitted to the reference.
   request_.center = parse_selection("all");
   FrameRun still(molecule_, request_);
   for (const double fluctuation : fluctuations(still)) EXPECT_NEAR(fluctuation, 0.0, 1e-4);
@@ -94,7 +94,7 @@ TEST_F(RunFramings, VelocitiesAreThoseBetweenFramesOfTheRun) {
   EXPECT_EQ(steps("0-60:30", 1), (std::vector<double>{30, 30, 30}));
   EXPECT_EQ(steps("0,4,24", 1), (std::vector<double>{4, 12, 20}));
   EXPECT_EQ(steps("7", 1), (std::vector<double>{0}));
-  EXPECT_EQ(steps("0,4", 2), (std::vector<double>{0, 2, 2, 0}));  // shown twice, it is still
+  EXPECT_EQ(steps("0,4", 2), (std::vector<double>{0, 2, 2, 0}));  // A frame that is shown twice stands still.
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::endian kBig = std::endian::big;
 
-/// Bits from the highest of each byte to the lowest.
+/// Writes bits from the highest of each byte to the lowest.
 class BitWriter {
  public:
   void put(std::uint64_t number, int count) {
@@ -24,7 +24,7 @@ class BitWriter {
     }
   }
 
-  /// Three numbers as one of `count` bits: whole bytes, lowest first, then the bits that are left.
+  /// Writes three numbers as one of `count` bits: whole bytes, lowest first, then the remaining bits.
   void put_joint(const std::array<std::uint64_t, 3>& numbers, const std::array<std::uint64_t, 3>& sizes, int count) {
     std::uint64_t joint = (numbers[0] * sizes[1] + numbers[1]) * sizes[2] + numbers[2];
     for (; count > 8; count -= 8, joint >>= 8) put(joint & 0xff, 8);
@@ -38,7 +38,7 @@ class BitWriter {
   std::size_t used_ = 0;
 };
 
-constexpr std::uint64_t kSmallSize = 101;  // of class 20
+constexpr std::uint64_t kSmallSize = 101;  // size of class 20
 
 }  // namespace
 
@@ -131,7 +131,7 @@ std::string packed(const XtcSample& sample, std::uint32_t frame, const std::arra
     } else {
       bits.put_joint(numbers, sizes, std::bit_width(sizes[0] * sizes[1] * sizes[2]));
     }
-    // The run is told once and stays.
+    // The length of the run is written once and stays.
     bits.put(atom == 0 ? 1 : 0, 1);
     if (atom == 0) bits.put(2 * 3 + 1, 5);
     put_near(atom, atom + 1);

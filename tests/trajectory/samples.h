@@ -15,13 +15,13 @@ struct DcdSample {
   int marker = 4;
   std::int32_t promised = 3, version = 24;
   std::uint32_t atoms = 4, frames = 3;
-  std::vector<std::int32_t> free = {};  // from 1; empty: all
+  std::vector<std::int32_t> free = {};  // numbers from 1; empty: all atoms
   std::vector<double> cell = {};
   bool fourth_axis = false;
   double time_step = 0.5;  // AKMA
 };
 
-/// Where the samples put atoms: Å in DCD and Amber NetCDF, nm in TRR.
+/// Returns the coordinate that a sample gives an atom: Å in DCD and Amber NetCDF, nm in TRR.
 float coordinate(std::uint32_t frame, std::uint32_t atom, int axis);
 
 std::string dcd(const DcdSample& sample);
@@ -34,10 +34,10 @@ struct XtcSample {
   std::int32_t spread = 1000;  ///< the first atom of three is up to this many steps from the origin
 };
 
-/// Where the sample puts an atom, in steps of the precision.
+/// Returns the coordinate that the sample gives an atom, in steps of the precision.
 std::int32_t xtc_step(const XtcSample& sample, std::uint32_t frame, std::uint32_t atom, int axis);
 
-/// Threes of atoms as waters are packed: one in full, two as differences.
+/// Packs atoms in threes like waters: one in full, two as differences.
 std::string xtc(const XtcSample& sample);
 
 struct TrrSample {
@@ -53,10 +53,10 @@ struct AmberSample {
   char version = 2;  ///< 1, 2 or 5
 };
 
-/// With boxes of edges 10, 20, 30 and times 0.5, 1.5, ...
+/// Returns a file with boxes of edges 10, 20, 30 and times 0.5, 1.5, ...
 std::string amber_netcdf(const AmberSample& sample);
 
-/// The message of the InputError that the action throws, or "no error".
+/// Returns the message of the InputError that the action throws, or "no error".
 std::string refusal(const std::function<void()>& action);
 
 }  // namespace meniscus::test

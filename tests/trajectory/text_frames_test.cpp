@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models of text files: found by offset they are what the readers of the formats give, with boxes and times.
+// Models of text files that are found by offset equal those of the formats' readers, with boxes and times.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ std::string atom(double x) {
   return fmt::format("ATOM      1  N   THR A   1    {:8.3f}  14.0991113.625  1.00 13.79           N\n", x);
 }
 
-/// Opens the file and compares each frame with the model that the reader of the format gives.
+/// Opens the file and compares each frame with the model from the format's own reader.
 std::unique_ptr<Trajectory> open_and_compare(const std::string& path, std::uint64_t frames) {
   auto trajectory = open_trajectory(path);
   EXPECT_EQ(trajectory->frame_count(), frames);

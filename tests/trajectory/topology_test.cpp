@@ -48,7 +48,7 @@ void expect_three_atoms(const Structure& structure) {
   EXPECT_EQ(structure.format, "PSF");
   EXPECT_EQ(atoms[0].element, 7);
   EXPECT_EQ(atoms[1].element, 20);
-  EXPECT_EQ(atoms[2].element, 1);  // three times its weight, as with a long time step
+  EXPECT_EQ(atoms[2].element, 1);  // Hydrogen has three times its weight, as in runs with a long time step.
   EXPECT_EQ(atoms[0].residue_number, 7);
   EXPECT_EQ(atoms[1].residue_number, 8);
   EXPECT_EQ(atoms[1].insertion_code, 'A');
@@ -80,13 +80,13 @@ TEST(Psf, StandardExtendedAndNamdForms) {
                                    "       3      -1   LYS  HZ1   HC     0.330000       3.02400           0\n"));
   expect_three_atoms(blank);
   EXPECT_EQ(blank.atoms[0].chain, "");
-  const Structure typeless = read(psf("PSF",  // as ProDy writes it
+  const Structure typeless = read(psf("PSF",  // ProDy writes this form.
                                       "       1 A    7    MET  N          -0.300000       14.0070       0\n"
                                       "       2 A    8A   CAL  CAL         2.000000       40.0800       0\n"
                                       "       3 B    -1   LYS  HZ1         0.330000        3.0240       0\n"));
   expect_three_atoms(typeless);
   EXPECT_EQ(typeless.atoms[2].chain, "B");
-  const Structure both = read(psf("PSF",  // by its columns, as MDAnalysis and VMD read it
+  const Structure both = read(psf("PSF",  // MDAnalysis and VMD read this form by its columns.
                                   "       1      7    MET  N              -0.300000       14.0070       0\n"
                                   "       2      8A   CAL  CAL             2.000000       40.0800       0\n"
                                   "       3      -1   LYS  HZ1             0.330000        3.0240       0\n"));
@@ -102,7 +102,7 @@ TEST(Psf, StandardExtendedAndNamdForms) {
 
 TEST(Psf, MassMovedToHydrogensLeavesElementsAsNamed) {
   const Structure structure = read(psf("PSF",
-                                       "1 A 1 ALA N NH1 -0.3 11.991 0\n"  // as heavy as carbon
+                                       "1 A 1 ALA N NH1 -0.3 11.991 0\n"  // The atom is as heavy as carbon.
                                        "2 A 1 ALA CA CT1 0.1 9.995 0\n3 A 1 ALA HN H 0.3 4.0 0\n"));
   EXPECT_EQ(structure.atoms[0].element, 7);
   EXPECT_EQ(structure.atoms[1].element, 6);

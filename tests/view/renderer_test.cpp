@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures that stay on the GPU against those of the complete surface.
+// Pictures that stay on the GPU equal those of the complete surface.
 #include "core/render/gl_renderer.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST(Renderer, PicksTheAtomOfEveryPixelOfThePicture) {
   atoms.set_atoms(balls);
   atoms.set_coloring(coloring);
   GlRenderer renderer, other;
-  // Wide and high pictures that the molecule overflows, so that all four borders show some of it.
+  // The molecule overflows wide and high pictures, so that all four borders show some of it.
   for (const glm::ivec2 size : {glm::ivec2{61, 34}, glm::ivec2{27, 50}}) {
     Camera camera;
     camera.position = {0.7, 1, 20};

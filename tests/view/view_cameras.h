@@ -10,10 +10,10 @@
 
 namespace meniscus::testing {
 
-/// Outside or not far inside, near or far, every other one orthographic; any way up.
+/// Returns a camera outside or not far inside, near or far, every other one orthographic; any way up.
 Camera camera_outside(std::span<const Ball> atoms, double aspect, std::mt19937& random);
 
-/// Among the atoms, in the solvent where 200 attempts find some; a wide angle, any direction.
+/// Returns a camera among the atoms, in the solvent where 200 attempts find some; a wide angle, any direction.
 Camera camera_inside(std::span<const Ball> atoms, double probe_radius, std::mt19937& random);
 
 }  // namespace meniscus::testing

@@ -30,7 +30,7 @@ struct Options {
   std::string extent = "visible";
 };
 
-/// Atoms, seen to some extent, and what draws them.
+/// Atoms, the extent to which they are seen, and their renderer.
 struct View {
   ViewPipeline surface;
   GlRenderer renderer;
@@ -39,7 +39,7 @@ struct View {
   std::vector<ray_cast::Hit> hits(std::size_t count) const { return renderer.hits().download<ray_cast::Hit>(count); }
 };
 
-/// The same atoms through two views, so that the complete one keeps what does not depend on the camera.
+/// Shows the same atoms through two views, so that the complete one keeps data that do not depend on the camera.
 class Comparison {
  public:
   Comparison(const std::vector<Ball>& atoms, const Options& options, double probe_radius) : atoms_(atoms) {

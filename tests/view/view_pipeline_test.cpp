@@ -56,8 +56,8 @@ class Views : public ::testing::Test {
     return count;
   }
 
-  /// Pixels in which the complete view is not the picture of the host's surface; n-fold probes are split in a view.
-  /// With every third atom hidden rays go on inside the solid, and see what clips convex and toroidal patches there.
+  /// Counts pixels in which the complete view differs from the host's surface; n-fold probes are split in a view. With
+  /// every third atom hidden, rays inside the solid see its clips of convex and toroidal patches.
   int differing_from_host(const Surface& surface, bool some_hidden) {
     Coloring coloring = coloring_of(surface.atoms.size());
     for (std::size_t a = 0; some_hidden && a < surface.atoms.size(); ++a) coloring.hidden.push_back(a % 3 == 0);
@@ -108,7 +108,7 @@ TEST_F(Views, GasesLookAsOnTheHost) {
   }
 }
 
-/// A large atom between so many others, each over a small one that meets the large one as well, but only inside the
+/// Returns a large atom between `count` others, each over a small one that meets the large one, but only inside the
 /// solid.
 Balls crowded_atom(int count) {
   constexpr double kRadius = 20.0;
@@ -135,7 +135,7 @@ TEST_F(Views, ManyPartnersAreNoMoreThanOneInvocationCanGoThrough) {
   ASSERT_GT(partners.size() * partners.size(), 2u * 65'535u);
   ASSERT_LT(partners.size(), 400u) << "no small atom is a partner";
   const Surface surface = assemble_surface(atoms, 1.4, reduced);
-  view_.set_counting(Counting::now);  // so that primitives are there, counted, when prepare() ends
+  view_.set_counting(Counting::now);  // Primitives are counted when prepare() ends.
   load(atoms);
   EXPECT_EQ(differing_from_host(surface, false), 0);
   StageClock clock;
@@ -178,7 +178,7 @@ Balls probe_under_a_roof() {
   return atoms;
 }
 
-// The theorem's ball of radius r + 2p: with r + p the atom far back would be left out, and the probe with it.
+// The theorem needs a ball of radius r + 2p: with r + p the atom far back would be left out, and the probe with it.
 TEST_F(Views, AnAtomMattersThroughAProbeThatReachesOutOfACleft) {
   const Balls atoms = probe_under_a_roof();
   Camera camera;
@@ -212,7 +212,7 @@ TEST_F(Views, ThePaperDrawsLessAndMissesSome) {
   }
   EXPECT_GT(missed, 0);
   EXPECT_LT(missed, shown / 50);
-  EXPECT_EQ(draw(camera, 1.4, Extent::complete), complete);  // nothing of the selection stays
+  EXPECT_EQ(draw(camera, 1.4, Extent::complete), complete);  // Nothing of the selection stays.
 }
 
 TEST_F(Views, NewAtomsAndProbesLeaveNothingBehind) {

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Submits the frames of this folder to Slurm; prints the job of each step. Options of sbatch may follow
-# (--partition, --account, --time, ...). MENISCUS is the program, if it is not `meniscus` in PATH. Submit again to go on
-# after a failure: what is done stays. MENISCUS_WORK_OPTIONS="--step surface" makes one step only;
+# Submits the frames of this folder to Slurm and prints the job of each step. Options of sbatch may follow (--partition,
+# --account, --time, ...). MENISCUS is the program, if it is not `meniscus` in PATH. Submit again to continue after a
+# failure: finished frames stay. MENISCUS_WORK_OPTIONS="--step surface" makes one step only;
 # MENISCUS_VERIFY_OPTIONS="--allow-missing hold" makes the film in spite of frames that cannot be made.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")"

@@ -90,7 +90,7 @@ Mailbox::Content Mailbox::take(std::optional<std::chrono::steady_clock::time_poi
 
 namespace {
 
-/// True if they are equal; takes the same time wherever they differ.
+/// Returns true if both texts are equal; takes the same time wherever they differ.
 bool equal_in_constant_time(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   volatile unsigned char difference = 0;
@@ -102,7 +102,7 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string random_token() {
-  std::random_device system;  // asks the system for each number
+  std::random_device system;
   std::array<std::uint32_t, 4> numbers{};
   for (std::uint32_t& number : numbers) number = system();
   return fmt::format("{:08x}", fmt::join(numbers, ""));
@@ -119,7 +119,7 @@ std::string token_fault(std::string_view token) {
 
 namespace {
 
-/// Takes the rights to an empty folder from other users.
+/// Makes an empty folder inaccessible to other users.
 const std::filesystem::path& made_private(const std::filesystem::path& folder) {
   std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
   return folder;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The clients of the preview server: who may connect, who controls, and their requests on the way to the drawing
-// thread.
+// The clients of the preview server: admission, control, and the requests that wait for the drawing thread.
 #pragma once
 
 #include <chrono>
@@ -16,15 +15,15 @@ namespace meniscus {
 
 using ClientNumber = std::uint64_t;
 
-/// One command of a client; several of its messages may have become one.
+/// One command of a client; several messages may have been merged into it.
 struct ClientCommand {
   ClientNumber client = 0;
   nlohmann::json command;
-  std::vector<nlohmann::json> ids;  ///< of the messages, for their replies
+  std::vector<nlohmann::json> ids;  ///< identifiers of the messages, for their replies
 };
 
-/// A file that came from a page, in a folder of its own that only this user can read. Both vanish with this
-/// object, and when the program is ended from outside.
+/// A file that came from a page, in its own folder that only this user can read. Both are deleted with this object, and
+/// when the program is ended from outside.
 class ReceivedFile {
  public:
   /// Makes an empty file. Its name must be plain (is_plain_name()). Throws OutputError.
@@ -44,37 +43,37 @@ struct OpenRequest {
   ReceivedFiles files;  ///< a molecule, its trajectory, or both
 };
 
-/// Drags not drawn yet become one drag, and of values such as the probe radius the latest counts, so
-/// that a slow picture never makes a queue. Every function may be called from any thread.
+/// Merges drags that are not drawn yet, and keeps only the latest of values such as the probe radius, so that a slow
+/// picture never makes a queue. Every function may be called from any thread.
 class Mailbox {
  public:
-  /// False, and nothing happens, if too many commands wait already.
+  /// Adds a command; returns false, and does nothing, if too many commands wait already.
   bool put(ClientNumber client, const nlohmann::json& id, nlohmann::json command);
   /// Requests another molecule. A later request replaces an earlier one.
   void open(OpenRequest request);
-  /// The most that a waiting command will change.
+  /// Returns the largest change that a waiting command will make.
   Change waiting_change();
-  /// The client has shown its last picture and is ready for another.
+  /// Notes that the client has shown its last picture and is ready for another.
   void want_picture(ClientNumber client);
-  /// The client is ready for another figure. known: digests of the tables that it has.
+  /// Notes that the client is ready for another figure. known: digests of the tables that it has.
   void want_figure(ClientNumber client, std::set<std::string> known);
-  /// The client has gone; its commands are still carried out.
+  /// Notes that the client has gone; its commands are still carried out.
   void forget(ClientNumber client);
-  /// The network has failed; take() throws Error with this text.
+  /// Reports that the network has failed; take() throws Error with this text.
   void fail(const std::string& error);
 
   struct Content {
     std::vector<ClientCommand> commands;                           ///< in order
     std::optional<OpenRequest> opening;                            ///< a request for another molecule
     std::set<ClientNumber> wanting;                                ///< clients that are ready for a picture
-    std::map<ClientNumber, std::set<std::string>> wanting_figure;  ///< those ready for a figure, and their tables
-    std::set<ClientNumber> gone;                                   ///< clients that left since the last time
+    std::map<ClientNumber, std::set<std::string>> wanting_figure;  ///< clients ready for a figure, and their tables
+    std::set<ClientNumber> gone;                                   ///< clients that left since the last call
   };
-  /// Waits until something new is there or the time has come, and takes all of it.
+  /// Waits until there is something new or the time has come, and takes all of it.
   Content take(std::optional<std::chrono::steady_clock::time_point> until);
 
  private:
-  void wake();  // take(), while the mutex is locked
+  void wake();  // wakes take() while the mutex is locked
 
   std::mutex mutex_;
   std::condition_variable arrived_;
@@ -83,8 +82,8 @@ class Mailbox {
   std::string error_;
 };
 
-// How much the server takes from others.
-inline constexpr std::size_t kMostClients = 4;  ///< sockets that look or control
+// Limits of what the server accepts.
+inline constexpr std::size_t kMostClients = 4;  ///< sockets that watch or control
 inline constexpr std::size_t kMostConnections = 32;
 inline constexpr std::size_t kLargestMessage = 4096;        ///< bytes
 inline constexpr std::size_t kLargestHeader = 8192;         ///< bytes of a request's header
@@ -92,10 +91,10 @@ inline constexpr int kPatience = 10;                        ///< seconds for a r
 inline constexpr std::size_t kMostReceived = 2;             ///< files that came from pages and are not open yet
 inline constexpr std::uint64_t kLargestFile = 512'000'000;  ///< bytes of such a file
 
-/// 128 random bits of the system as 32 hexadecimal digits. Throws Error where the system has none.
+/// Returns 128 random bits of the system as 32 hexadecimal digits. Throws Error where the system has none.
 std::string random_token();
 
-/// Why a token of a user's own is none; empty: it is one.
+/// Returns why a text is not a valid token; empty: it is one.
 std::string token_fault(std::string_view token);
 
 /// Returns why a text is not a host that a user may trust, such as hub.example.org:8888; empty: it is one.
@@ -110,7 +109,7 @@ struct OutgoingMessage {
   bool is_text = true;
 };
 
-/// A connected socket, as others see it. Used by the network thread only.
+/// A connected socket. Used by the network thread only.
 class Client {
  public:
   virtual ~Client() = default;
@@ -118,25 +117,25 @@ class Client {
   virtual void close() = 0;
 };
 
-/// Who is connected, and what all connections share. Used by the network thread only.
+/// The connected clients, and the data that all connections share. Used by the network thread only.
 struct Clients {
   Clients(Mailbox& box, std::string word) : mailbox(box), token(std::move(word)) {}
 
   Mailbox& mailbox;
   std::string token;
-  std::string entry = random_token();  ///< stands for the token in the first request that has it; then empty
+  std::string entry = random_token();  ///< replaces the token in the first request that has it; empty after that
   std::uint16_t port = 0;
-  std::vector<std::string> trusted{};  ///< further hosts under which browsers reach this server, as behind a proxy
-  std::map<std::string, std::filesystem::path, std::less<>> files{};  ///< what browsers may download, by name
+  std::vector<std::string> trusted{};  ///< further names of this server in browsers, as behind a proxy
+  std::map<std::string, std::filesystem::path, std::less<>> files{};  ///< files that browsers may download, by name
   std::map<std::string, std::shared_ptr<const ReceivedFile>, std::less<>>
       received{};               ///< complete files from pages, by name
   bool is_receiving = false;    ///< true while a file comes from a page
-  std::string announcement{};   ///< what a new client is told, as JSON; empty: nothing
-  std::size_t connections = 0;  ///< sockets of any kind, open
+  std::string announcement{};   ///< the JSON message that each new client gets; empty: none
+  std::size_t connections = 0;  ///< open sockets of any kind
   std::map<ClientNumber, std::shared_ptr<Client>> sockets;
   ClientNumber next_number = 1;
 
-  /// Connections that have not shown the token yet, oldest first, each by a function that ends it.
+  /// Functions that end connections without the token so far, oldest first.
   std::map<std::uint64_t, std::function<void()>> strangers;
   std::uint64_t next_stranger = 1;
   ClientNumber controller = 0;  ///< 0: none
@@ -147,7 +146,7 @@ struct Clients {
   /// Returns true if this server sent the pages of an origin.
   bool is_origin(std::string_view origin) const;
   bool controls(ClientNumber client) const { return client == controller; }
-  /// This client controls from now on; both are notified.
+  /// Gives control to this client; it and the former controller are notified.
   void give_control(ClientNumber client);
   bool full() const;
   /// Returns true, once, for the target of a request that is "/" and the entry.
@@ -156,7 +155,7 @@ struct Clients {
   void leave(ClientNumber client);
 };
 
-/// A JSON message as text.
+/// Returns a JSON text as a message.
 OutgoingMessage text_message(const std::string& text);
 
 }  // namespace meniscus

@@ -27,7 +27,7 @@ using StreamBody = http::basic_file_body<beast::file_stdio>;
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// The digests in a request for a figure, whose "has" may be left out; nothing: the message is none.
+/// Returns the digests in a request for a figure, whose "has" may be left out; nothing if the message is not valid.
 std::optional<std::set<std::string>> tables_known_to(const Json& message) {
   std::set<std::string> known;
   const Json has = message.value("has", Json::array());
@@ -46,7 +46,7 @@ std::optional<std::vector<std::string>> files_to_open(const Json& message) {
   return files.get<std::vector<std::string>>();
 }
 
-/// Messages that wait for a client that does not read; a page that is alive never has as many.
+/// Limit of the messages that wait for a client that does not read; a page that works never has as many.
 constexpr std::size_t kLongestQueue = 512;
 
 class SocketClient : public Client, public std::enable_shared_from_this<SocketClient> {
@@ -183,7 +183,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       if (const auto self = weak.lock()) self->stream_.close();
     };
     parser_.header_limit(kLargestHeader);
-    parser_.body_limit(std::numeric_limits<std::uint64_t>::max());  // another parser reads it, with a limit
+    parser_.body_limit(std::numeric_limits<std::uint64_t>::max());  // another parser, with a limit, reads the body
     stream_.expires_after(std::chrono::seconds(kPatience));
     const auto answered = [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error) return self->answer();
@@ -197,12 +197,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void answer() {
     const auto& request = parser_.get();
     const std::string_view host = view(request[http::field::host]), target = view(request.target());
-    // Of two the first would count here, and the second perhaps in a proxy.
+    // This server would read the first of two, a proxy perhaps the second.
     for (const http::field header : {http::field::host, http::field::origin})
       if (request.count(header) > 1) return refuse(http::status::bad_request, "a header appears twice");
     if (!clients_->is_host(host)) return refuse(http::status::forbidden, "this is not the host asked for");
     if (request.method() == http::verb::get && clients_->take_entry(target)) return lead_to_the_page();
-    // A proxy may add a query of its own, such as its user's token.
+    // A proxy may add its own query, such as its user's token.
     const std::optional<std::string_view> path = admitted_path(target.substr(0, target.find('?')), clients_->token);
     if (!path) return refuse(http::status::forbidden, "the address lacks the token that meniscus printed");
     clients_->strangers.erase(stranger_);
@@ -299,7 +299,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     send(http::status::ok, content_type(".txt"), "");
   }
 
-  /// Sends a file that the session has written, for the browser to keep.
+  /// Sends a file that the session has written, as a download.
   void send_file(std::string_view name) {
     const auto file = clients_->files.find(name);
     if (file == clients_->files.end()) return refuse(http::status::not_found, "this preview has written no such file");
@@ -317,7 +317,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     send_piece();
   }
 
-  /// Sends the file piece by piece, so that the patience is for each piece.
+  /// Sends the file piece by piece, so that the time limit applies to each piece.
   void send_piece() {
     stream_.expires_after(std::chrono::seconds(kPatience));
     http::async_write_some(stream_, *serializer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -326,8 +326,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     });
   }
 
-  /// The page runs its own script and style only, talks to this server and the Protein Data Bank only, and is in no
-  /// frame.
+  /// Allows the page only its own script and style, this server and the Protein Data Bank, and no frame around it.
   void describe(auto& response, http::status status, std::string_view type) {
     response.result(status);
     response.version(11);
@@ -350,8 +349,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   beast::flat_buffer buffer_{2 * kLargestHeader};
   http::request_parser<http::empty_body> parser_;
   std::optional<http::request_parser<http::file_body>> upload_;
-  std::shared_ptr<const ReceivedFile> received_;  // the file that is being received
-  bool receives_ = false;                         // true while a file is being received
+  std::shared_ptr<const ReceivedFile> received_;
+  bool receives_ = false;
   http::response<http::string_body> response_;
   http::response<StreamBody> download_;
   std::optional<http::response_serializer<StreamBody>> serializer_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The listener, its thread, and the list of clients.
+// The listener, its thread, and the messages to clients.
 #include "app/preview/server/network.h"
 
 #include <thread>
@@ -26,7 +26,7 @@ struct Network::State {
     try {
       const asio::ip::tcp::endpoint here(asio::ip::make_address(options.address), options.port);
       acceptor.open(here.protocol());
-      // A browser that is opened must not keep the port.
+      // A browser that this program starts must not keep the port.
       system_process::keep_from_children(static_cast<std::intptr_t>(acceptor.native_handle()));
       acceptor.set_option(asio::socket_base::reuse_address(true));
       acceptor.bind(here);
@@ -42,7 +42,7 @@ struct Network::State {
     acceptor.async_accept([this](boost::system::error_code error, asio::ip::tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();
-      // A silent connection makes room for one that may know the token.
+      // A connection without the token makes room for one that may have it.
       if (clients->connections >= kMostConnections && !clients->strangers.empty()) {
         const auto oldest = clients->strangers.begin();
         const std::function<void()> end = oldest->second;
@@ -56,7 +56,7 @@ struct Network::State {
     });
   }
 
-  /// Out of file descriptors, for instance: connections that end will give some back.
+  /// Waits before the next connection, for instance because file descriptors are used up until connections end.
   void accept_later() {
     pause.expires_after(std::chrono::milliseconds(200));
     pause.async_wait([this](boost::system::error_code error) {
@@ -96,7 +96,7 @@ Network::~Network() {
     if (sockets.empty()) state->context.stop();
   });
   state_->thread.join();
-  state_->clients->sockets.clear();  // they hold the list that holds them
+  state_->clients->sockets.clear();  // the sockets hold the list that holds them
 }
 
 std::uint16_t Network::port() const { return state_->clients->port; }
@@ -119,7 +119,7 @@ void Network::send(ClientNumber client, const nlohmann::json& message,
 
 void Network::send_to_all(const nlohmann::json& message) {
   asio::post(state_->context, [clients = state_->clients, text = text_message(json_line(message))] {
-    const auto sockets = clients->sockets;  // a client that is abandoned leaves the list
+    const auto sockets = clients->sockets;  // a copy, because a client that is abandoned leaves the list
     for (const auto& [number, socket] : sockets) socket->send(text);
   });
 }

@@ -12,7 +12,7 @@ namespace {
 
 std::string stage_file(std::string_view path) { return std::string(template_text(page_templates(), path)); }
 
-/// Returns the page. Its policy comes with the reply, its figure through the socket.
+/// Returns the HTML of the page. Its policy comes with the reply, its figure through the socket.
 std::string whole_page() {
   const std::string links =
       "<link rel=\"icon\" href=\"icon.svg\" type=\"image/svg+xml\">\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files that browsers get: the stage, which exported pages have too, and what the preview adds to it.
+// The files of the preview's page: the stage, which exported pages have too, and the preview's additions to it.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ std::span<const TemplateFile> page_files();
 /// style and script. Returns nothing if there is no such file.
 std::optional<std::string> served_file(std::string_view path);
 
-/// Returns "text/html; charset=utf-8" and the like by the extension of a path; that of "" is a page.
+/// Returns the media type of a path by its extension, such as "text/html; charset=utf-8", which is also that of "".
 std::string_view content_type(std::string_view path);
 
 }  // namespace meniscus

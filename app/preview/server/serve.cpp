@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the loop that carries out commands and draws what waiting pages have not seen.
+// Runs the loop that carries out commands and draws for the pages that wait.
 #include "app/preview/server/serve.h"
 
 #include <new>
@@ -19,8 +19,8 @@ using Clock = LiveView::Clock;
 using Json = nlohmann::json;
 using MakeOther = std::function<std::unique_ptr<PreviewSession>(const ReceivedFiles& files)>;
 
-/// Returns pixels as PNG, lightly compressed, without any loss. rgba: 4 bytes a pixel, rows from the top; alpha is
-/// left out. scene: the scene of the picture; empty for none.
+/// Returns pixels as PNG, lightly compressed, without loss. rgba: 4 bytes per pixel, rows from the top; alpha is left
+/// out. scene: the scene of the picture; empty for none.
 std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 size, std::string scene) {
   ImageToEncode image;
   image.format = "png";
@@ -29,11 +29,11 @@ std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 
   image.channels = {"R", "G", "B"};
   image.color_space = "sRGB";
   image.scene = std::move(scene);
-  image.png_level = 1;  // of 9; more takes longer for a little less
+  image.png_level = 1;  // 1 to 9; more takes longer for a little less
   return encode_png(image, rgba, 4);
 }
 
-/// A picture as pages get it.
+/// A picture as it is sent to pages.
 struct SentPicture {
   std::uint64_t number = 0;  ///< 0: none yet
   std::uint64_t revision = 0;
@@ -62,7 +62,7 @@ class ServedSession {
       if (news.opening)
         if (auto other = opened(*news.opening, make)) return other;
       play();
-      // Of a large molecule there is something to see before its first surface.
+      // A large molecule shows balls before its first surface.
       if (picture_.number > 0 || waiting_.empty() || !session_.wants_balls()) show_figure();
       show();
     }
@@ -105,7 +105,7 @@ class ServedSession {
     }
   }
 
-  /// The next frame, when it is time and the pages have come along.
+  /// Shows the next frame when its time has come and the pages are ready for it.
   void play() {
     if (!session_.state().playing || (waiting_.empty() && !somebody_waits_for_figures()) || Clock::now() < next_frame_)
       return;
@@ -115,7 +115,7 @@ class ServedSession {
     view_.apply({{"command", "next_frame"}});
   }
 
-  /// Is the latest picture good enough for now?
+  /// Returns true if the latest picture is as good as it can be at this time.
   bool is_current() const {
     return picture_.number > 0 && picture_.revision == session_.state().revision &&
            picture_.quality >= view_.due(Clock::now());
@@ -160,7 +160,7 @@ class ServedSession {
     return std::ranges::any_of(figure_pages_, [](const auto& page) { return page.second.known.has_value(); });
   }
 
-  /// Sends the figure to pages that cast it themselves, or says why there is none for them.
+  /// Sends the figure to pages that cast it themselves, or the reason why they cannot.
   void show_figure() {
     if (!somebody_lacks_the_figure() || !pack_figure()) return;
     Json message{{"event", "figure"}, {"edition", figure_revision_}, {"revision", session_.state().revision}};
@@ -175,7 +175,7 @@ class ServedSession {
     }
   }
 
-  /// False if another surface is wanted already.
+  /// Packs the figure; returns false if another surface is wanted already.
   bool pack_figure() {
     if (figure_revision_ == session_.figure_revision()) return true;
     figure_.reset();
@@ -191,9 +191,9 @@ class ServedSession {
     return true;
   }
 
-  /// False if there is nothing to show: it cannot be drawn, or a newer command stopped it.
+  /// Draws a picture; returns false if it cannot be drawn, or if a newer command stopped it.
   bool draw() {
-    // However late a page asks, of what it has not seen at all there is a draft first.
+    // However late a page asks, it first gets a draft of a view that it has not seen.
     const bool begun =
         picture_.number > 0 && picture_.revision == session_.state().revision && picture_.quality > Quality::balls;
     const Quality due = view_.due(Clock::now()), quality = begun ? due : std::min(due, view_.at_once());
@@ -226,7 +226,7 @@ class ServedSession {
     picture_.message["stats"]["encode_milliseconds"] = elapsed.count();
   }
 
-  /// Of the picture as it is shown.
+  /// Returns the scene of the present picture.
   std::string scene() {
     const PreviewState& state = session_.state();
     const Json asked{{"command", "scene"},
@@ -257,10 +257,10 @@ class ServedSession {
   Network& network_;
   Mailbox& mailbox_;
   SentPicture picture_;
-  std::set<ClientNumber> waiting_;                   ///< for a picture they have not seen
-  std::map<ClientNumber, std::uint64_t> shown_;      ///< number of the picture each was sent last
+  std::set<ClientNumber> waiting_;                   ///< clients that wait for a picture
+  std::map<ClientNumber, std::uint64_t> shown_;      ///< number of the picture that each client was sent last
   std::shared_ptr<const page::PackedFrame> figure_;  ///< nullptr: none yet, or pages cannot show it
-  std::string figure_fault_;                         ///< why not
+  std::string figure_fault_;                         ///< why pages cannot show the figure
   std::uint64_t figure_revision_ = 0;                ///< 0: none yet
   std::map<ClientNumber, FigurePage> figure_pages_;
   Clock::time_point next_frame_{};
@@ -269,7 +269,7 @@ class ServedSession {
 }  // namespace
 
 std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> rgba, glm::ivec2 size, bool quickly) {
-  constexpr int kQuality = 80;  // of 100
+  constexpr int kQuality = 80;  // 0 to 100
   const std::unique_ptr<void, int (*)(void*)> compressor(tjInitCompress(), tjDestroy);
   if (!compressor) throw Error(std::string("JPEG: ") + tjGetErrorStr2(nullptr));
   unsigned char* bytes = nullptr;

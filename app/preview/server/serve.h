@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The preview as a web page.
+// Serves a session of the preview as a web page.
 #pragma once
 
 #include "app/preview/server/network.h"
@@ -7,15 +7,15 @@
 
 namespace meniscus {
 
-/// Where the page is.
+/// The addresses of the page.
 struct ServedAddress {
   std::string url;   ///< http://127.0.0.1:PORT/TOKEN/
-  std::string once;  ///< leads there once, so that it is worth nothing to those who see it in a list of processes
+  std::string once;  ///< opens the page once, so that it is useless to other users who see it in a list of processes
   std::uint16_t port = 0;
 };
 
 struct ServeOptions : NetworkOptions {
-  /// Gets the address of the page, as soon as it can be opened.
+  /// Gets the addresses of the page as soon as it can be opened.
   std::function<void(const ServedAddress&)> ready;
 };
 
@@ -26,11 +26,11 @@ using MakeSession = std::function<std::unique_ptr<PreviewSession>(const Received
 
 /// Serves a session on 127.0.0.1 until a command ends it; pages can be opened while it is made. Makes and draws it on
 /// this thread, which has its GL context. Another session replaces it when a page opens another molecule. Throws what
-/// Network throws, and after the pages were notified GpuError and what `make` throws for the first session.
+/// Network throws and, after the pages were notified, GpuError and what `make` throws for the first session.
 void serve_session(const ServeOptions& options, const MakeSession& make);
 
-/// Returns a picture as JPEG; nothing in a build without TurboJPEG. rgba: 4 bytes a pixel, rows from the top; alpha is
-/// left out. quickly: colours have half the resolution, as is enough while something moves. Throws Error if it fails.
+/// Returns a picture as JPEG; nothing in a build without TurboJPEG. rgba: 4 bytes per pixel, rows from the top; alpha
+/// is left out. quickly: colours have half the resolution, which is enough for moving views. Throws Error if it fails.
 std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> rgba, glm::ivec2 size, bool quickly);
 
 }  // namespace meniscus

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps exceptions to statuses, stores the last message of each thread, checks arrays of callers, and runs work on a
-// thread with a GL context.
+// Maps exceptions to statuses, keeps the last message of each thread, checks arrays, and runs work on a GL thread.
 #include "exporters/bindings/c/c_calls.h"
 
 #include <array>
@@ -104,8 +103,7 @@ void check_number(std::string_view key, const char* name, double value, const ch
 
 namespace {
 
-/// The process that used GL first; 0: GL was not used. A child has the number of its parent, whose driver does not work
-/// in the child.
+/// The process that used GL first; 0: none. In a child it is the parent, whose driver does not work there.
 std::atomic<pid_t> process_of_driver{0};
 
 /// Returns the number of this process. Throws GpuError if GL was used before fork().

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every function of the C interface uses: errors as status codes, checks of the caller's memory, and reference
-// counts of the objects behind handles; and where calls compute: the device, the number of CPU threads, and a thread
-// with a GL context of its own.
+// The common part of the functions of the C interface: errors as status codes, checks of the caller's memory, reference
+// counts of the objects behind handles, and the device, the CPU threads and the thread with a GL context that compute.
 #pragma once
 
 #include <algorithm>
@@ -47,8 +46,7 @@ template <typename... Values>
 /// Stores the message of an exception for meniscus_last_error() in this thread, and returns its status.
 meniscus_status report(const std::exception_ptr& error) noexcept;
 
-/// Calls a function, and returns the status of the exception that it throws. Each function of the interface that can
-/// fail is one such call.
+/// Calls a function, and returns the status of its exception. Each function that can fail is such a call.
 template <typename Call>
 meniscus_status guarded(const Call& call) noexcept {
   try {
@@ -61,8 +59,7 @@ meniscus_status guarded(const Call& call) noexcept {
 
 // ---- Memory of the caller
 
-/// The largest size of an array in bytes, which is half the address space. Larger sizes come from negative or
-/// overflowing numbers.
+/// The largest size of an array in bytes, half the address space; negative or overflowing numbers exceed it.
 inline constexpr std::size_t kMostBytes = std::numeric_limits<std::size_t>::max() / 2;
 
 /// Refuses NULL, and an address that is not aligned for such an object, with MENISCUS_USAGE.
@@ -199,8 +196,7 @@ inline DeviceChoice gl_of(std::int32_t device) {
   return choice;
 }
 
-/// Runs work on a number of threads; 0 means all. The work has a separate arena, so that it does not execute TBB tasks
-/// of the calling program.
+/// Runs work on a number of threads; 0: all. A separate arena keeps TBB tasks of the calling program away.
 template <typename Work>
 void run_on_threads(int threads, const Work& work) {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);

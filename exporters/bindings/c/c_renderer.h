@@ -21,8 +21,7 @@ struct GlRenderer {
   std::unique_ptr<StillRenderer> renderer;
 };
 
-/// Refuses, with MENISCUS_USAGE, memory of the caller that is NULL or too small for the four bytes of each pixel of the
-/// picture of the scene.
+/// Refuses, with MENISCUS_USAGE, memory that is NULL or too small for the four bytes of each pixel.
 inline void require_room(const Scene& scene, const std::uint8_t* rgba, std::size_t rgba_size) {
   require(rgba, "rgba");
   require_numbers(rgba, rgba_size, 1, "rgba");

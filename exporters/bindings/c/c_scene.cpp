@@ -65,7 +65,7 @@ struct PropertyTexts {
 /// Returns the rows of meniscus_scene_properties(), which are never freed.
 const std::vector<meniscus_property>& property_rows() {
   static const std::vector<meniscus_property> rows = [] {
-    static std::deque<PropertyTexts> texts;  // whose elements are not moved
+    static std::deque<PropertyTexts> texts;  // a deque does not move its elements
     std::vector<meniscus_property> result;
     for (const Property* property : properties()) {
       if (!is_scene_value(*property)) continue;

@@ -46,8 +46,7 @@ void set_at(Scene& scene, const Property& property, const std::vector<std::strin
 /// Returns true if a picture of a computed surface has the property.
 bool is_of_surface(const Property& property);
 
-/// Returns a copy, in which the values that depend on each other are completed. Refuses values that contradict each
-/// other.
+/// Returns a copy in which dependent values are completed. Refuses values that contradict each other.
 Scene completed(const meniscus_scene& scene);
 
 /// Returns a completed copy for drawing. Refuses a scene without a molecule. Defined in builds with scene files only.

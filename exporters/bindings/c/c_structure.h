@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Molecules from files: the object behind the handle, and the colours of its atoms, which builds without some libraries
-// refuse.
+// Molecules from files: the object behind the handle, and colours of its atoms, which some builds refuse.
 #pragma once
 
 #include <string_view>

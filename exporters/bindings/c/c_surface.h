@@ -31,8 +31,7 @@ struct FinishedSurface {
   mutable std::optional<SurfaceDistance> distance_;
 };
 
-/// Returns the atoms of a caller. Refuses numbers that meniscus.h does not allow; the message has the atom and the
-/// value.
+/// Returns the atoms of a caller. Refuses invalid numbers; the message has the atom and the value.
 std::vector<Ball> read_atoms(const meniscus_atoms* atoms);
 
 /// The sRGB colour of surfaces and meshes for which the caller gives no colour.

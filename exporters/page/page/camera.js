@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera and how it moves: as core/camera and app/preview/camera_commands.cpp have it.
+// The camera and its motions, with the formulas of core/camera and app/preview/camera_commands.cpp.
 
 const plus = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -9,7 +9,7 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 const length = (a) => Math.hypot(...a);
 const unit = (a) => times(a, 1 / length(a));
 
-/// v about a unit axis.
+/// Returns v turned about a unit axis.
 function turned(v, axis, angle) {
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
   return plus(plus(times(v, c), times(cross(axis, v), s)), times(axis, dot(axis, v) * (1 - c)));
@@ -23,11 +23,11 @@ function basis_of(camera) {
 
 const reach_of = (camera) => length(minus(camera.target, camera.position));
 
-/// Å between the lower and upper edge, in the plane through the target.
+/// Returns the height of the picture in Å, in the plane through the target.
 const height_at_target = (camera) =>
   camera.orthographic ? camera.height : 2 * reach_of(camera) * Math.tan(camera.fov * Math.PI / 360);
 
-/// dx, dy: heights of the picture, to the right and down.
+/// Returns a camera turned about its target. dx, dy: to the right and down, in heights of the picture.
 function orbited(camera, dx, dy) {
   const { right, up } = basis_of(camera);
   const angle = Math.PI * Math.hypot(dx, dy);
@@ -47,7 +47,7 @@ function rolled(camera, angle) {
   return { ...camera, up: turned(basis_of(camera).up, basis_of(camera).forward, -angle) };
 }
 
-/// What is at x, y stays: heights of the picture from its middle, to the right and down.
+/// Returns a camera that is nearer by a factor; the point at x, y stays there (from the middle, in picture heights).
 function zoomed(camera, factor, x = 0, y = 0) {
   const moved = panned(camera, -x, -y), reach = minus(moved.position, moved.target);
   const nearer = camera.orthographic ? { ...moved, height: moved.height / factor }
@@ -60,8 +60,8 @@ function centered(camera, point) {
   return { ...camera, target: point, position: plus(camera.position, shift) };
 }
 
-/// The same by the other projection: what lies in the plane of the target keeps its size. An orthographic camera is outside
-/// of all, for it sees nothing behind its plane.
+/// Returns the same view in the other projection: objects in the target's plane keep their size. An orthographic camera
+/// is outside of everything, because it sees nothing behind its plane.
 function projected(camera, orthographic, radius) {
   if (camera.orthographic === orthographic) return camera;
   const { forward } = basis_of(camera), height = height_at_target(camera);
@@ -69,7 +69,7 @@ function projected(camera, orthographic, radius) {
   return { ...camera, orthographic, height, position: minus(camera.target, times(forward, reach)) };
 }
 
-/// The picture's geometry as the shaders have it (BlockView), and its pivot: on the view axis, as deep as the middle of all.
+/// Returns the picture's geometry as the shaders have it (BlockView). Its pivot is on the axis, as deep as the middle.
 function frame_of(camera, width, height) {
   const basis = basis_of(camera);
   const eye_distance = Math.max(-dot(camera.position, basis.forward), 1);
@@ -89,7 +89,7 @@ function places_of(points, { right, up, forward, eye_distance, pixel_size, ortho
   });
 }
 
-/// The same view where a picture is narrower than the one that it was made for: all that was seen across is seen.
+/// Returns a view for a picture that is narrower than the one it was made for: it shows the same width.
 function widened(camera, factor) {
   if (camera.orthographic) return { ...camera, height: camera.height * factor };
   return { ...camera, fov: Math.atan(Math.tan(camera.fov * Math.PI / 360) * factor) * 360 / Math.PI };

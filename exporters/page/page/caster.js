@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands tables and parameters to the shaders, and starts their passes: cast, points, light, finish, present.
+// Passes tables and parameters to the shaders, and runs their passes: cast, points, light, finish, present.
 
-const kTableColumns = 2048;  // of gpu_shaders/webgl/tables.glsl
+const kTableColumns = 2048;  // the value of gpu_shaders/webgl/tables.glsl
 const kNoPrimitive = 0xffffffff;
 const kToroidal = 1, kCylinder = 3;
-const kIsBeside = 1;    // of exporters/page/page_tables.cpp
-const kBuckets = 4096;  // of depth, front to back
-const kSelected = [1, 0.43, 0], kSelectedShare = 0.75;  // linear colour of what is selected, and its share
+const kIsBeside = 1;    // the value of exporters/page/page_tables.cpp
+const kBuckets = 4096;  // steps of depth, front to back
+const kSelected = [1, 0.43, 0], kSelectedShare = 0.75;  // linear colour of selected atoms, and its share
 
-/// A figure cannot be drawn here, in a sentence for its reader.
+/// The error of a figure that cannot be drawn here, with a sentence for its reader.
 class NoWebGl extends Error {}
 
 const linear_from_srgb = (color) => color.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
 
-/// A source with what it includes put in place, each file once.
+/// Returns a source in which includes are replaced by the text of their files, each file once.
 function expanded(sources, path, seen = new Set()) {
   if (seen.has(path)) return "";
   seen.add(path);
@@ -31,7 +31,7 @@ class Caster {
     this.programs = new Map();
     this.size = [0, 0];
     this.tables = {};
-    this.ready = new Map();  // what frames are drawn from, by their numbers
+    this.ready = new Map();  // the resources of frames on the device, by their numbers
     this.scheme = 0;
     this.light = new LightMaps(this);
     this.buffer = gl.createBuffer();
@@ -43,7 +43,7 @@ class Caster {
 
   table_names() { return ["primitives", "rows", "marks", "map"]; }
 
-  /// Makes what a frame is drawn from: textures of its tables, and its primitives in groups.
+  /// Makes the resources of a frame: textures of its tables, and its primitives in groups.
   prepare(frame) {
     if (this.ready.has(frame.number)) return this.ready.get(frame.number);
     const alike = (name) => [...this.ready.values()].find((other) => other.tables[name] === frame.tables[name]);
@@ -54,14 +54,14 @@ class Caster {
     return made;
   }
 
-  /// The figure is at this frame now.
+  /// Makes the frame the current one.
   show(frame) {
     const { textures, grouped } = this.prepare(frame);
     Object.assign(this, grouped, { tables: { ...textures, colors: this.tables.colors } });
     this.set_scheme(this.scheme);
   }
 
-  /// Another frame than the one that is shown.
+  /// Frees the resources of a frame that is not shown.
   forget(number) {
     const { textures = {} } = this.ready.get(number) ?? {};
     this.ready.delete(number);
@@ -78,7 +78,7 @@ class Caster {
     return texture;
   }
 
-  /// A table of records of four words a texel, or of one.
+  /// Returns a texture with a table of records, of four words per texel, or of one.
   table(words, single = false) {
     const gl = this.gl, channels = single ? 1 : 4;
     const rows = Math.max(1, Math.ceil(words.length / channels / kTableColumns));
@@ -92,7 +92,7 @@ class Caster {
     return texture;
   }
 
-  /// Primitives of one shader are drawn together.
+  /// Returns the primitives in groups that are drawn together, because they have one shader.
   grouped(words) {
     const numbers = new Float32Array(words.buffer), primitive_count = words.length / 12;
     const centers = new Float32Array(3 * primitive_count), radii = new Float32Array(primitive_count), groups = [[], [], [], [], []];
@@ -106,7 +106,7 @@ class Caster {
       groups: groups.map((list, n) => ({ define: ["", "TORI", "", "TORI", "SHAPES"][n], of_surface: n < 2, list: Uint32Array.from(list) })) };
   }
 
-  /// scheme: its place among the figure's.
+  /// Sets the colour scheme. scheme: its index among the figure's.
   set_scheme(scheme) {
     const { own_colors, tables, schemes } = this.figure, words = scheme > 0 ? tables[`scheme_${scheme}`] : own_colors;
     const made_of = [words, own_colors, this.hidden, this.selected], is_same = made_of.every((part, n) => part === this.colors_of?.[n]);
@@ -126,7 +126,7 @@ class Caster {
     this.colors_of = made_of;
   }
 
-  /// Frees all that the figure takes on the device.
+  /// Frees all resources of the figure on the device.
   release() {
     for (const number of [...this.ready.keys()]) this.forget(number);
     this.gl.deleteTexture(this.tables.colors ?? null);
@@ -134,13 +134,13 @@ class Caster {
     this.resize(1, 1);
   }
 
-  /// atoms: numbers of those that are hidden beside those that the figure hides.
+  /// Hides atoms. atoms: the numbers of those that are hidden in addition to those that the figure hides.
   hide(atoms) {
     this.hidden = atoms;
     this.set_scheme(this.scheme);
   }
 
-  /// atoms: numbers of those that are tinted as selected.
+  /// Tints atoms as selected. atoms: their numbers.
   select(atoms) {
     this.selected = atoms;
     this.set_scheme(this.scheme);
@@ -156,7 +156,7 @@ class Caster {
     return shader;
   }
 
-  /// With the offsets of its blocks' members by name.
+  /// Returns a program with the offsets of its blocks' members by name, and compiles it if it is new.
   program(vertex, fragment, defines = []) {
     const key = [vertex, fragment, ...defines].join();
     if (this.programs.has(key)) return this.programs.get(key);
@@ -183,7 +183,7 @@ class Caster {
     return made;
   }
 
-  /// words: of the whole block, as the program that wrote the page has it; values: members that differ.
+  /// Sets the members of a block. words: the whole block as the exporter wrote it; values: members that differ from it.
   set_block(program, name, words, values) {
     const gl = this.gl, block = program.blocks[name];
     if (!block) return;
@@ -203,7 +203,7 @@ class Caster {
     gl.bindBufferBase(gl.UNIFORM_BUFFER, block.binding, block.buffer);
   }
 
-  /// textures: by the samplers' names; numbers: uniforms of floats.
+  /// Uses a program. textures: by the samplers' names; numbers: uniforms of floats.
   use(made, textures, numbers = {}) {
     const gl = this.gl;
     gl.useProgram(made.program);
@@ -212,7 +212,7 @@ class Caster {
       gl.bindTexture(name === "light_texels" ? gl.TEXTURE_2D_ARRAY : gl.TEXTURE_2D, texture);
       gl.uniform1i(gl.getUniformLocation(made.program, name), unit);
     });
-    for (const [name, value] of Object.entries(numbers))  // more than four are an array of four each
+    for (const [name, value] of Object.entries(numbers))  // more than four numbers are an array of vectors of four
       gl[`uniform${Math.min(value.length, 4)}fv`](gl.getUniformLocation(made.program, name), value);
     this.set_block(made, "ViewBlock", [], this.frame);
   }
@@ -265,7 +265,7 @@ class Caster {
       sum: this.target(pixels.sum), other_sum: this.target(pixels.other_sum) };
   }
 
-  /// Front to back, by where their bounds begin.
+  /// Sorts the primitives front to back, by the beginning of their bounds.
   sort() {
     const { forward } = this.frame, all = this.centers, places = new Uint16Array(this.primitive_count);
     let low = Infinity, high = -Infinity;
@@ -286,7 +286,7 @@ class Caster {
     }
   }
 
-  /// Of all atoms along the view axis, for what fades with depth; and the distances from the eye between which all lies.
+  /// Finds the range of all atoms along the view axis, which depth cues need, and the range of distances from the eye.
   depths() {
     const balls = new Float32Array(this.figure.tables.balls.buffer), { forward, pivot, eye_distance } = this.frame;
     const eye = minus(pivot, times(forward, eye_distance));
@@ -319,7 +319,7 @@ class Caster {
     this.sort();
   }
 
-  /// effects: {shade, lines}, whether; sample: 0 first.
+  /// Casts one sample of the picture. effects: {shade, lines}, both true or false; sample: from 0.
   cast(sample, effects) {
     const { pixels, targets } = this, first = sample === 0;
     this.begin_sample(sample);
@@ -337,10 +337,10 @@ class Caster {
     this.gl.viewport(0, 0, ...this.size);
   }
 
-  /// Where the sum goes, and where that of the samples before is.
+  /// Returns the names of the target for the sum of samples and of the target with the sum so far.
   sums(sample) { return sample % 2 === 0 ? { to: "sum", from: "other_sum" } : { to: "other_sum", from: "sum" }; }
 
-  /// A pass over the whole picture.
+  /// Draws a pass over the whole picture.
   draw_whole(target, made, textures, numbers = {}, blocks = {}) {
     const gl = this.gl;
     gl.disable(gl.DEPTH_TEST);
@@ -356,7 +356,7 @@ class Caster {
     return { primitive_texels: tables.primitives, row_texels: tables.rows, color_texels: tables.colors };
   }
 
-  /// Light on what was found. more: numbers, members of the block and defines that layers ask for.
+  /// Lights the points that were found. more: numbers, members of the block and defines for layers.
   color_points(target, textures, { numbers = {}, values = {}, defines = [] } = {}) {
     const { map } = this.figure, paint = map ? { map_axes: map.axes, map_size: map.size, map_scale: map.scale, map_parts: map.parts,
       map_is_shown: [this.scheme === 0 ? 1 : 0] } : {};
@@ -366,14 +366,14 @@ class Caster {
       { Parameters: { words: this.look.cast, values: { color_by_kind: this.by_kind, ...values } } });
   }
 
-  /// Finds what points of the first sample see of the sky and of the lamp, which all samples share. target: its name.
+  /// Computes the light at points of the first sample, which all samples share. target: its name.
   shade(normal, target) {
     this.light.make();
     this.draw_whole(this.targets[target], this.program("whole.vert", "light.frag"), { normal_texels: normal, light_texels: this.light.texture }, {},
       { Parameters: { words: [], values: this.light.parameters() } });
   }
 
-  /// The look of some points, which is added to the sum if this is not the first sample.
+  /// Finishes the look of points, and adds it to the sum if this is not the first sample.
   finish(target, { normal, what, color, sum, shade = this.pixels.shade }, effects, values, defines = []) {
     const wanted = [...(effects.shade ? ["SHADE"] : []), ...(effects.lines ? ["SILHOUETTES"] : []), ...defines];
     this.draw_whole(target, this.program("whole.vert", "finish.frag", wanted), { normal_texels: normal, sample_texels: color, what_texels: what,
@@ -381,7 +381,7 @@ class Caster {
       { Parameters: { words: this.look.finish, values: { ...this.depth_range, ...this.line_widths(), ...(this.fades ? {} : { depth_cue: 0 }), ...values } } });
   }
 
-  /// Footprints of some primitives or balls, in their order. kind: of a program's vertex shader.
+  /// Draws the footprints of some primitives or balls, in order. made: the program for their kind.
   draw_footprints(list, made, textures, numbers, target) {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
@@ -398,7 +398,7 @@ class Caster {
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, list.length);
   }
 
-  /// The nearest primitive at each pixel.
+  /// Finds the nearest primitive at each pixel.
   find(groups, { textures = {}, numbers = {}, defines = [], hides_some = this.hides_some() } = {}) {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets.found);
@@ -412,7 +412,7 @@ class Caster {
     }
   }
 
-  /// Lines grow with the picture, as those of presets do.
+  /// Returns the widths of lines, which grow with the picture like those of presets.
   line_widths() {
     const { figure, whole } = this, shorter = Math.min(...whole), growth = shorter / Math.min(...figure.size);
     const widths = Object.fromEntries(Object.entries(this.look.line_widths).map(([name, width]) => [name, Math.min(16, width * growth)]));
@@ -420,7 +420,7 @@ class Caster {
     return { ...widths, step_pixels: Math.max(step, 2), fade_pixels: 2 * step };
   }
 
-  /// background: linear. The canvas may have other pixels than the picture, as a draft has fewer.
+  /// Draws the picture on the canvas, which may have more pixels, as for a draft. background: linear.
   present(background, target = null, size = [this.canvas.width, this.canvas.height]) {
     const { texture, samples } = this.summed;
     this.gl.viewport(0, 0, ...size);
@@ -437,7 +437,7 @@ class Caster {
     return words;
   }
 
-  /// Returns where an atom is, from where the records count; null for an atom that only meshes show.
+  /// Returns the position of an atom, relative to the origin of the records; null for an atom that only meshes show.
   center_of(atom) {
     const { tables, light_maps: { surfaces } } = this.figure, { primitives, rows, balls } = tables;
     const own = surfaces.find(([, first, count]) => atom >= first && atom < first + count);
@@ -448,7 +448,7 @@ class Caster {
     return null;
   }
 
-  /// What a pixel shows: {atom, primitive, point}, or nothing.
+  /// Returns what a pixel shows: {atom, primitive, point}, or null.
   pick(x, y) {
     const [width, height] = this.size;
     if (x < 0 || y < 0 || x >= width || y >= height) return null;
@@ -462,9 +462,9 @@ class Caster {
   }
 }
 
-/// Members that are whole numbers; the others are floats.
+/// Members of blocks that are whole numbers; the others are floats.
 const kWholeMembers = new Set(["orthographic", "size", "sky_edge", "lamp_edge", "sky_axes", "lamp_places", "first_lamp_texel", "sample_index", "has_marks", "keeps_alpha", "tiles", "color_by_kind"]);
-/// Tables of records of one word.
+/// Tables whose records have one word.
 const kSingle = new Set(["marks", "map"]);
-/// Targets that one depth buffer serves.
+/// Targets that share one depth buffer.
 const kDeepTargets = ["found", "cap_atom"];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns mouse, fingers, keys and controls into changes, and starts the stage.
+// Changes the view by mouse, fingers, keys and controls, and starts the stage.
 
-const kClick = 4;        // CSS pixels a click may wander
-const kMostChains = 24;  // that have a box each
-const kSections = "meniscus sections";  // in the browser's storage
+const kClick = 4;        // CSS pixels that a click may wander
+const kMostChains = 24;  // chains that have a box each
+const kSections = "meniscus sections";  // a key of the browser's storage
 
-/// Says a sentence over the picture until another takes its place, or for some seconds.
+/// Shows a sentence over the picture for some seconds, or until another one replaces it.
 function say(sentence, { is_error = true, seconds = 0 } = {}) {
   const box = $("message");
   box.textContent = sentence;
@@ -16,7 +16,7 @@ function say(sentence, { is_error = true, seconds = 0 } = {}) {
   if (seconds) say.timer = setTimeout(() => { box.hidden = true; }, 1000 * seconds);
 }
 
-/// The live picture, or the still one.
+/// Shows the live picture, or else the still one.
 function show_picture(live) {
   $("picture").hidden = !live;
   $("labels").toggleAttribute("hidden", !live);
@@ -79,15 +79,14 @@ function follow_pointer(viewer) {
   }, { passive: false });
 }
 
-/// True if the control that has the focus has a use for the key itself. A slider or a switch that was used last keeps no
-/// letters from the picture.
+/// Returns true if the control with the focus uses the key itself. Sliders and switches leave letters to the picture.
 function is_for(control, key) {
   if (control.matches("input[type=range], [role=slider]")) return key.startsWith("Arrow");
   if (control.matches("input[type=checkbox], input[type=color], button, summary")) return key === " " || key === "Enter";
   return control.matches("input, select, textarea");
 }
 
-/// other: is given the keys that mean nothing here, and returns true for those that it knows.
+/// Handles keys. other: is called with the keys that have no meaning here, and returns true for those that it handles.
 function follow_keys(viewer, other = () => false) {
   const step = 1 / 36, steps = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
   const acts = { "+": () => viewer.move(zoomed(viewer.camera, 1.1)), "-": () => viewer.move(zoomed(viewer.camera, 1 / 1.1)),
@@ -114,7 +113,7 @@ function show_help(open) {
   $("show-help").setAttribute("aria-expanded", String(open));
 }
 
-/// Sections stay open or closed as they were left. closed: those that begin closed.
+/// Restores which sections are open. closed: sections that are closed at first.
 function remember_sections(closed = []) {
   const sections = [...document.querySelectorAll("#sections > details")];
   let left = {};
@@ -123,7 +122,7 @@ function remember_sections(closed = []) {
     section.open = left[section.id] ?? (section.open && !closed.includes(section.id));
     section.addEventListener("toggle", () => {
       left[section.id] = section.open;
-      try { localStorage.setItem(kSections, JSON.stringify(left)); } catch { /* likewise */ }
+      try { localStorage.setItem(kSections, JSON.stringify(left)); } catch { /* a frame may have no storage */ }
     });
   }
 }
@@ -157,10 +156,10 @@ function follow_controls(viewer) {
   follow_png(viewer);
 }
 
-/// What of the surface is shown.
+/// Connects the controls of cuts, opacity and chains.
 function follow_layers(viewer) {
   const { layers, names, views } = viewer.figure;
-  // Where the figure hides atoms, their patches are not in it, and nothing tells what is solid.
+  // Where the figure hides atoms, their patches are missing, so that it is unknown what is solid.
   const cuts = layers?.whole && views.every(({ planes }) => planes.length < kMostPlanes);
   $("cutting").hidden = !cuts;
   $("opacity").parentElement.hidden = !layers;
@@ -182,7 +181,7 @@ function follow_layers(viewer) {
 
 async function main() {
   $("show-help").addEventListener("click", () => show_help($("help").hidden));
-  if ($("data").dataset.bytes === "0") return;  // the program sends the figure later
+  if ($("data").dataset.bytes === "0") return;  // the preview's program sends the figure later
   remember_sections();
   show_picture(false);
   if (typeof DecompressionStream === "undefined") return say("This browser is too old to unpack the figure: what is shown is a still picture.");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the page's data: text to bytes, bytes to the descriptions of frames and their tables.
+// Reads the page's data: converts text to bytes, and bytes to the descriptions of frames and their tables.
 
-const kMostTables = 100, kMostTableBytes = 256e6;  // tables that are kept of what a preview sent
+const kMostTables = 100, kMostTableBytes = 256e6;  // limits of the tables of a preview that are kept
 
-/// Of text_of_bytes() (exporters/page/page_data.h).
+/// Reverses text_of_bytes() (exporters/page/page_data.h).
 function bytes_of_text(text) {
   const value = new Uint8Array(128);
   for (let code = 33, known = 0; code < 127; ++code) if (!"&<>".includes(String.fromCharCode(code))) value[code] = known++;
@@ -11,7 +11,7 @@ function bytes_of_text(text) {
   let length = 0, waiting = 0, bits = 0, first = -1;
   for (let n = 0; n < text.length; ++n) {
     const code = text.charCodeAt(n);
-    if (code < 33) continue;  // ends of lines
+    if (code < 33) continue;  // skips ends of lines
     if (first < 0) { first = value[code]; continue; }
     waiting |= (first * 91 + value[code]) << bits;
     bits += 13;
@@ -28,7 +28,7 @@ async function inflated(bytes) {
 
 async function description_of(part) { return JSON.parse(new TextDecoder().decode(await inflated(part))); }
 
-/// Of packed_table() (exporters/page/page_data.h): words of records, whose bytes lie apart.
+/// Reverses packed_table() (exporters/page/page_data.h): returns the words of records whose bytes are apart.
 function words_of(bytes, stride) {
   const words = stride / 4, count = bytes.length / stride, table = new Uint32Array(words * count);
   for (let word = 0; word < words; ++word) {
@@ -38,7 +38,7 @@ function words_of(bytes, stride) {
   return table;
 }
 
-/// Of PageData::bytes(): its parts, each deflated by itself.
+/// Reverses PageData::bytes(): returns its parts, which are deflated separately.
 function parts_of(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset), count = view.getUint32(0, true), parts = [];
   let at = 4 * (count + 1);
@@ -51,14 +51,13 @@ function parts_of(bytes) {
   return parts;
 }
 
-/// Of Tables::packed() (exporters/page/page_tables.h), in place: first rows are written as how many more they are than the one
-/// before.
+/// Reverses Tables::packed() (exporters/page/page_tables.h) in place: first rows are differences from those before.
 function restored(name, words) {
   if (name === "primitives") for (let at = 12; at < words.length; at += 12) words[at + 5] += words[at - 12 + 5];
   return words;
 }
 
-/// Restores the rows of patches from the differences that row_differences() made (exporters/page/page_tables.h). surfaces: the
+/// Restores the rows of patches from the differences of row_differences() (exporters/page/page_tables.h). surfaces: the
 /// list of this name in the description's light_maps.
 function restored_rows({ primitives, rows: sorted, balls, shown }, surfaces, probe) {
   const count = primitives.length / 12, groups = Array.from({ length: 25 }, () => []);
@@ -121,7 +120,7 @@ function restored_rows({ primitives, rows: sorted, balls, shown }, surfaces, pro
   return rows;
 }
 
-/// A frame's description with its tables: {..., tables: {name: Uint32Array}}. near: frames that may have some of them.
+/// Returns a frame's description with its tables: {..., tables: {name: Uint32Array}}. near: frames that may share some.
 async function read_frame(figure, n, near = []) {
   const own = n === 0 ? figure.first : { ...figure.first, ...await description_of(figure.parts[figure.frames[n]]) };
   const tables = {}, part_of = (name) => own.tables[name][0];
@@ -135,16 +134,16 @@ async function read_frame(figure, n, near = []) {
   return { ...own, number: n, sources, own_colors: tables.colors, tables };
 }
 
-/// What the page shows, at its first frame. count: of the packed bytes; the last two characters may stand for one more.
+/// Returns the page's figure at its first frame. count: of packed bytes; the last two characters may encode one more.
 async function read_figure(text, count) {
   const parts = parts_of(bytes_of_text(text).subarray(0, count)), first = await description_of(parts[0]);
   const figure = { first, parts, frames: first.frames };
   return Object.assign(figure, await read_frame(figure, 0), { frames: first.frames });
 }
 
-/// Reads the figure that a preview sends (bytes_for_page() in exporters/page/page_file.h). kept: a Map of tables by digest, which
-/// takes up those that come and forgets the oldest; its keys are `has` of the next request. Those that did not come are in it.
-/// number: another one for each figure.
+/// Reads the figure that a preview sends (bytes_for_page() in exporters/page/page_file.h). kept: a Map of tables by
+/// digest, which has those that are not sent, gets the new ones and loses the oldest; its keys are `has` of the next
+/// request. number: unique for each figure.
 function read_figure_bytes(bytes, kept, number) {
   const parts = parts_of(bytes), read_json = (part) => JSON.parse(new TextDecoder().decode(part)), first = read_json(parts[0]);
   const table_of = ([part, , digest], read) => {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Views by their names: a button each, to which the camera glides; and frames of a run: a slider goes from one to another,
-// and a button plays them. Each frame is unpacked when it is first shown, the next one ahead of its time.
+// Moves the camera to views by their names, with a button for each, and shows frames of a run by a slider and a button
+// that plays them. Each frame is unpacked when it is first shown, and the next one in advance.
 
 const kGlide = 500;  // ms
 
-/// A part of the way from one camera to another of the same projection.
+/// Returns a camera on the way between two cameras of the same projection.
 function between(from, to, share) {
   const a = basis_of(from), b = basis_of(to), axes = ["right", "up", "forward"];
   const sum = axes.reduce((all, name) => plus(all, cross(a[name], b[name])), [0, 0, 0]);
   const cosine = (axes.reduce((all, name) => all + dot(a[name], b[name]), 0) - 1) / 2, angle = Math.atan2(length(sum) / 2, cosine);
-  // Half a turn has no such sum: what turns about the axis and its own opposite meet on it.
+  // Half a turn has no such sum, but the sum of an axis and its turned image lies on the axis of the turn.
   const middles = axes.map((name) => plus(a[name], b[name])).sort((one, other) => length(other) - length(one));
   const axis = unit(length(sum) > 1e-6 ? sum : middles[0]);
   const target = plus(times(from.target, 1 - share), times(to.target, share)), mixed = (x, y) => x ** (1 - share) * y ** share;
@@ -17,7 +17,7 @@ function between(from, to, share) {
     position: minus(target, times(turned(a.forward, axis, share * angle), mixed(reach_of(from), reach_of(to)))) };
 }
 
-/// At once for readers who want no motion.
+/// Moves the camera smoothly, or at once for readers who want no motion.
 function glide(viewer, to) {
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) return viewer.move(to, false);
   const from = projected(viewer.camera, to.orthographic, viewer.caster.radius), began = performance.now();
@@ -53,8 +53,8 @@ function follow_views(viewer) {
   });
 }
 
-const kFrameTime = 80;       // ms that each is shown, at least
-const kMostKept = 384e6;     // bytes of tables, and as many again of textures
+const kFrameTime = 80;       // least ms for each frame
+const kMostKept = 384e6;     // limit of the bytes of tables, and of textures
 
 const painted = () => new Promise((go) => requestAnimationFrame(() => setTimeout(go)));
 const bytes_of = (frame) => Object.values(frame.tables).reduce((sum, table) => sum + table.byteLength, 0);
@@ -64,12 +64,12 @@ class Frames {
     this.viewer = viewer;
     this.count = viewer.figure.frames.length;
     this.shown = this.wanted = 0;
-    this.kept = new Map([[0, { ...viewer.figure }]]);  // by number, the one asked for last at the end
+    this.kept = new Map([[0, { ...viewer.figure }]]);  // frames by number, the latest at the end
     this.reading = new Map();  // promises by number
     this.step = 1;
   }
 
-  /// Unpacks a frame, once.
+  /// Returns a frame, which is unpacked once.
   async read(n) {
     const known = this.kept.get(n);
     const frame = known ?? await (this.reading.get(n) ?? this.begin(n));
@@ -84,7 +84,7 @@ class Frames {
     return reading;
   }
 
-  /// Keeps what there is room for; the one that is shown stays.
+  /// Removes old frames beyond the limit, but never the shown one.
   forget() {
     let bytes = [...this.kept.values()].reduce((sum, frame) => sum + bytes_of(frame), 0);
     for (const [n, frame] of this.kept) {
@@ -96,7 +96,7 @@ class Frames {
     }
   }
 
-  /// The last one asked for is shown in the end; those before it as far as there is time.
+  /// Shows a frame. The last one of several requests is shown in the end, and earlier ones if there is time.
   async show(n) {
     this.step = n < this.wanted ? -1 : 1;
     this.wanted = n;
@@ -119,7 +119,7 @@ class Frames {
     this.look_ahead();
   }
 
-  /// The next one is ready before it is asked for.
+  /// Prepares the next frame before it is requested.
   async look_ahead() {
     const next = (this.shown + this.step + this.count) % this.count, shown = this.shown;
     await painted();
@@ -135,7 +135,7 @@ class Frames {
     $("moment").textContent = words;
   }
 
-  /// One after the other, and again from the first, until the reader has enough.
+  /// Plays the frames in order, again from the first, until the reader stops them.
   async play() {
     this.playing = this.viewer.playing = true;
     $("play").textContent = "Pause";

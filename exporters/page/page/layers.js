@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces that are cut or seen through: their hits are cast one behind the other, and put together along each ray.
+// Draws surfaces that are cut or translucent: their hits are cast one after another, and combined along each ray.
 
 const kMostLayers = 8, kDraftLayers = 2, kMostPlanes = 8;
 const kOnPlane = 0xfffffffe;
@@ -19,15 +19,15 @@ class LayeredCaster extends Caster {
     this.surface_atoms = Uint32Array.from({ length: frame.layers?.surface_atoms ?? 0 }, (_, n) => n);
   }
 
-  /// planes: [x, y, z, w] each, kept is where dot(xyz, x) < w; hatching: of each; opacity: times that of the atoms.
+  /// Sets the layers. planes: [x, y, z, w] each, points with dot(xyz, x) < w stay; opacity: a factor of that of atoms.
   set_layers(planes, hatching, opacity) {
     Object.assign(this.layers, { planes, hatching, opacity, seen_through: this.figure.layers && (this.figure.layers.seen_through || opacity < 1) ? 1 : 0 });
   }
 
-  /// Whether the surface is cut or seen through; else it is cast at once.
+  /// Returns true if the surface is cut or translucent; otherwise one pass casts it.
   has_layers() { return this.layers.planes.length > 0 || this.layers.seen_through > 0; }
 
-  /// Where planes cut, hidden atoms are seen through: their points tell what is solid.
+  /// Returns true if hidden atoms are left out. Cuts include them, since their points determine what is solid.
   hides_some() { return this.layers.planes.length === 0 && super.hides_some(); }
   is_seen_through() { return this.layers.seen_through > 0 || (this.layers.planes.length > 0 && super.hides_some()); }
 
@@ -63,7 +63,7 @@ class LayeredCaster extends Caster {
 
   cuts() { return { planes: this.layers.planes, atoms: this.layers.surface_atoms, opacity: this.layers.opacity ?? 1 }; }
 
-  /// Uniforms that all shaders of layers share.
+  /// Returns the uniforms that all shaders of layers share.
   layer_numbers() {
     const { layers } = this, padded = (list) => [...list.flat(), ...Array(4 * (kMostPlanes - list.length)).fill(0)];
     return { pivot: this.frame.pivot, planes: padded(layers.planes), planes_there: [layers.planes.length], hatching: padded(layers.hatching),
@@ -71,7 +71,7 @@ class LayeredCaster extends Caster {
       probe: [layers.probe], largest_ball: [layers.largest_ball] };
   }
 
-  /// What the target has at one place, into a texture.
+  /// Copies the attachment of a target into a texture.
   copy(target, attachment, texture) {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
@@ -112,7 +112,7 @@ class LayeredCaster extends Caster {
     this.summed = { texture: pixels[to], samples: sample + 1 };
   }
 
-  /// How many layers the picture has, as far as the device has told of its first sample.
+  /// Returns the number of layers in the picture, as far as the device has reported it after the first sample.
   layers_there(sample) {
     if (sample === 0) return kMostLayers;
     const { gl } = this, told = (query) => gl.getQueryParameter(query, gl.QUERY_RESULT_AVAILABLE) && !gl.getQueryParameter(query, gl.QUERY_RESULT);
@@ -120,7 +120,8 @@ class LayeredCaster extends Caster {
     return empty < 0 ? kMostLayers : Math.max(empty, 1);
   }
 
-  /// From hit to hit, at most `count` of them. counts: the device is asked which of them are there. seen, opaque: targets that keep the first one that is seen, and the opaque one.
+  /// Goes from hit to hit along the rays, at most `count` times. counts: true to ask the device which layers exist.
+  /// seen, opaque: targets that keep the first visible hit and the first opaque one.
   walk(seen, opaque, count, counts) {
     const { gl, figure, pixels, targets } = this, numbers = this.layer_numbers(), layers = ["LAYERS"];
     const surface = this.groups.filter((group) => group.of_surface), block = { Parameters: { words: this.look.cast, values: {} } };

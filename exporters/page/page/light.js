@@ -2,8 +2,8 @@
 // Maps of the heights of the balls that block light, from the sky's directions and from places on the lamp, for
 // gpu_shaders/look/light_maps.glsl. core/render/light_maps.cpp makes the same for pictures.
 
-const kLayerTexels = 2048 * 256;  // of the texture (gpu_shaders/webgl/light.frag)
-const kLightSteps = 8192;  // of heights in a map (gpu_shaders/look/parameters.glsl)
+const kLayerTexels = 2048 * 256;  // texels in a layer of the texture (gpu_shaders/webgl/light.frag)
+const kLightSteps = 8192;  // steps of heights in a map (gpu_shaders/look/parameters.glsl)
 const kEmptyMap = -1e30;
 const kGoldenAngle = Math.PI * (3 - Math.sqrt(5));
 const after_point = (x) => x - Math.floor(x);
@@ -58,7 +58,7 @@ class LightMaps {
     this.layers = 0;
   }
 
-  /// Makes the maps that are missing. What is shown has one set of maps of the sky; each camera has its maps of the lamp.
+  /// Makes missing maps. The shown figure has one set of maps of the sky, each camera its maps of the lamp.
   make() {
     const { caster } = this, { figure, look: { light }, frame, hidden } = caster, { planes, opacity } = caster.cuts();
     const shown = [figure.tables.balls, figure.tables.primitives, figure.own_colors, hidden, light.maps_sky, opacity, planes.join()];
@@ -170,7 +170,7 @@ class LightMaps {
         const off = line - y, across = Math.sqrt(Math.max(reach * reach - off * off, 0));
         for (let column = Math.ceil(x - across); column <= x + across; ++column) {
           const square = (column - x) ** 2 + off * off, height = Math.sqrt(Math.max(radius * radius - square, 0));
-          const share = is_soft ? 0.5 + 0.5 * disc - square * 0.5 / disc : square <= disc * disc ? 1 : 0;  // of the texel
+          const share = is_soft ? 0.5 + 0.5 * disc - square * 0.5 / disc : square <= disc * disc ? 1 : 0;
           let low = z - height, high = z + height;
           if (cut[n]) [low, high] = this.kept(planes, { right, up, axis }, (column - half) * texel, (line - half) * texel, low * texel, high * texel).map((end) => end / texel);
           if (low > high || share <= 0) continue;

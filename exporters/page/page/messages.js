@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a page around this one may ask for in messages, and is told: the camera, picked atoms, colours of atoms. Lengths are in
-// Å from where the molecule's file counts. Nobody is told anything who has not asked.
+// Answers messages of a page around this one about the camera, picked atoms and colours of atoms. Lengths are in Å from
+// the origin of the molecule's file. Only pages that have sent a request get messages.
 
 const is_point = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => Number.isFinite(x) && Math.abs(x) < 1e7);
 
-/// As Python's Camera has it.
+/// Returns a camera in the form of Python's Camera.
 function told_camera(camera, origin) {
   const { up } = basis_of(camera);
   return { position: plus(camera.position, origin), target: plus(camera.target, origin), up, projection: projection_of(camera),
     vertical_fov: camera.fov, height: camera.height };
 }
 
-/// Nothing for what is no camera.
+/// Returns the camera of a message; null if it is not valid.
 function asked_camera(asked, now, origin) {
   const { position, target, up, projection, vertical_fov, height } = asked;
   if (![position, target, up].every(is_point) || length(cross(minus(target, position), up)) < 1e-9) return null;
@@ -20,7 +20,7 @@ function asked_camera(asked, now, origin) {
     fov: vertical_fov, height };
 }
 
-/// colors: three bytes for each atom of the figure, red first; label: what they mean.
+/// Shows given colours. colors: three bytes for each atom of the figure, red first; label: their meaning.
 function show_colors(viewer, colors, label) {
   const { figure } = viewer, { shown } = figure.tables, last = figure.schemes.length - 1;
   if (colors.length !== 3 * figure.names.atoms.length) return say(`There are ${colors.length / 3} colours for ${figure.names.atoms.length} atoms.`);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A PNG of any size: drawn tile by tile, with its labels, while the reader is told how far it is and may stop it.
+// Draws a PNG of any size tile by tile, with its labels; the reader sees the progress and may stop it.
 
 const kMostPngPixels = 64e6;
-/// A picture no larger than `whole` along a side is one tile. Lengths: pixels.
+/// A picture whose sides do not exceed `whole` is one tile. Lengths are in pixels.
 const kTiles = { whole: 2048, tile: 1024 };
 
 /// Puts a file into the browser's downloads.
@@ -14,7 +14,7 @@ function download(blob, name) {
 
 const later = () => new Promise((go) => setTimeout(go));
 
-/// Pixels of a tile, rows from the top, without its margin.
+/// Returns the pixels of a tile without its margin, rows from the top.
 function tile_pixels(caster, background, { x, y, width, height, left, top, size }) {
   const gl = caster.gl, target = caster.target(caster.texture(gl.RGBA8)), all = new Uint8Array(4 * size[0] * size[1]);
   caster.present(background, target, size);
@@ -30,7 +30,7 @@ function tile_pixels(caster, background, { x, y, width, height, left, top, size 
   return pixels;
 }
 
-/// Parts of a picture, each in a margin as wide as what is seen of its neighbours reaches.
+/// Returns the tiles of a picture, each with a margin as wide as the reach of effects between neighbouring pixels.
 function tiles_of([width, height]) {
   if (Math.max(width, height) <= kTiles.whole) return [{ x: 0, y: 0, width, height, left: 0, top: 0, size: [width, height] }];
   const tiles = [], step = kTiles.tile, margin = 16;
@@ -43,7 +43,7 @@ function tiles_of([width, height]) {
   return tiles;
 }
 
-/// The view as it is at rest, as a PNG; null if it was stopped. tell: is told tile and sample.
+/// Draws the view at rest as a PNG; null if it was stopped. tell(done, all) reports numbers of samples in all tiles.
 async function draw_png(viewer, size, tell) {
   const { caster, figure, effects } = viewer, page = Object.assign(document.createElement("canvas"), { width: size[0], height: size[1] });
   const context = page.getContext("2d"), camera = widened(viewer.camera, viewer.growth()), background = linear_from_srgb(viewer.background);
@@ -58,7 +58,7 @@ async function draw_png(viewer, size, tell) {
         await later();
         if (saving.stopped || viewer.caster !== caster) return null;
         caster.cast(sample, effects);
-        caster.read(0, 0, 1, 1, 2);  // waits for the device
+        caster.read(0, 0, 1, 1, 2);  // waits until the device has drawn
       }
       context.putImageData(tile_pixels(caster, background, tile), tile.x, tile.y);
     }

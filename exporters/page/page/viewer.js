@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The figure as readers see it: draws when something changes, names what is picked.
+// The figure in the reader's browser: draws it when something changes, and names picked atoms.
 
 const kDraft = 40;         // ms that a frame may take while the view moves
-const kMostPixels = 2048;  // along a side
+const kMostPixels = 2048;  // the most pixels along a side
 const $ = (id) => document.getElementById(id);
 
 class Viewer {
-  /// pictures: draws in place of this browser's WebGL, as the program's do.
+  /// pictures: a source of pictures that replaces this browser's WebGL, such as the preview's program.
   constructor(figure, pictures = null) {
     Object.assign(this, { figure, pictures });
     this.canvas = $("picture");
@@ -16,14 +16,14 @@ class Viewer {
     this.effects = { shade: figure.has_shade, lines: figure.has_lines };
     this.opacity = this.view.opacity;
     this.cut = null;  // the plane of the reader's cut
-    this.depth = 0;  // share of the molecule that it takes away
+    this.depth = 0;  // share of the molecule that the cut removes
     this.cuts_with_view = true;
-    this.rests_here = true;  // draws the picture at rest; else drafts alone
-    this.hidden = [];  // atoms
+    this.rests_here = true;  // draws the picture at rest; else only drafts
+    this.hidden = [];  // numbers of atoms
     this.selected = new Set();  // their numbers in the names
-    this.selects = false;  // clicks select, and those that centre are of the middle button
+    this.selects = false;  // clicks select, and the middle button centres
     this.draft_scale = 1;
-    this.sample = -1;  // the last one cast of the picture at rest
+    this.sample = -1;  // the last sample of the picture at rest
     this.moving = false;
     this.write_labels();
     this.start();
@@ -43,7 +43,7 @@ class Viewer {
     $("labels").replaceChildren(...this.texts);
   }
 
-  /// Shows another figure, whose number no other has; the camera stays.
+  /// Shows another figure, which has a unique number; the camera stays.
   show_figure(figure) {
     const { names, number, origin } = this.figure, shift = minus(origin, figure.origin);
     Object.assign(this.figure, figure);
@@ -60,14 +60,14 @@ class Viewer {
     this.set_layers();
   }
 
-  /// Shows what draws in place of this browser's WebGL; null: this browser casts.
+  /// Sets the source of pictures that replaces this browser's WebGL; null: this browser casts.
   show_pictures(pictures) {
     this.pictures = pictures;
     this.start();
     this.change();
   }
 
-  /// frame: of read_frame().
+  /// Shows a frame that read_frame() returned.
   show_frame(frame) {
     const { names, labels, tables } = this.figure;
     Object.assign(this.figure, frame);
@@ -93,7 +93,7 @@ class Viewer {
   set_scheme(scheme) {
     this.scheme = scheme;
     this.caster.set_scheme(scheme);
-    $("legend").innerHTML = this.figure.schemes[scheme].legend;  // escaped where it was written
+    $("legend").innerHTML = this.figure.schemes[scheme].legend;  // the exporter escapes it
     this.change();
   }
 
@@ -110,7 +110,7 @@ class Viewer {
     this.change(true);
   }
 
-  /// The plane across `forward` that takes away what is nearer than a share of the molecule's depth.
+  /// Returns the plane across `forward` that removes everything nearer than a share of the molecule's depth.
   plane_at(depth, forward) {
     const balls = new Float32Array(this.figure.tables.balls.buffer), end = 4 * (this.figure.layers?.surface_atoms ?? balls.length / 4);
     let [nearest, farthest] = [Infinity, -Infinity];
@@ -122,8 +122,8 @@ class Viewer {
     return [...times(forward, -1), -(nearest + depth * (farthest - nearest))];
   }
 
-  /// depth: share of the molecule that a plane takes away, 0: none. The plane is across the view, or across the view that
-  /// there was when the cut began.
+  /// Cuts the molecule. depth: the share that the plane removes; 0: no plane. The plane is across the present view, or
+  /// across the view in which the cut began.
   set_cut(depth) {
     const forward = this.cut && !this.cuts_with_view ? times(this.cut, -1).slice(0, 3) : basis_of(this.camera).forward;
     this.depth = depth;
@@ -131,7 +131,7 @@ class Viewer {
     this.set_layers();
   }
 
-  /// shown: names of chains.
+  /// Shows chains. shown: their names.
   show_chains(shown) {
     this.shown_chains = shown;
     this.hidden = this.atoms_beside(shown);
@@ -152,7 +152,7 @@ class Viewer {
     this.caster.select(this.selected.size > 0 ? [...shown.keys()].filter((atom) => this.selected.has(shown[atom])) : []);
   }
 
-  /// Atoms of other chains.
+  /// Returns the atoms of other chains.
   atoms_beside(shown) {
     const { names, tables } = this.figure;
     return [...tables.shown.keys()].filter((atom) => !shown.has(names.chains[this.residue_of(atom)]));
@@ -170,7 +170,7 @@ class Viewer {
     say(sentence);
   }
 
-  /// True if this browser casts the picture itself.
+  /// Returns true if this browser casts the picture itself.
   get casts() { return this.caster !== null && this.caster !== this.pictures; }
 
   pixels() {
@@ -179,7 +179,7 @@ class Viewer {
     return [Math.max(1, Math.round(stage.clientWidth * scale)), Math.max(1, Math.round(stage.clientHeight * scale))];
   }
 
-  /// By how much more is seen from top to bottom than the camera says.
+  /// Returns the factor by which the visible height exceeds the camera's.
   growth() {
     const [width, height] = this.figure.size, { clientWidth, clientHeight } = $("stage");
     return Math.max(1, (width / height) * (clientHeight / Math.max(clientWidth, 1)));
@@ -190,10 +190,10 @@ class Viewer {
     this.caster.begin(widened(this.camera, this.growth()), width, height);
   }
 
-  /// Of the camera's picture, CSS pixels: what motions are measured by.
+  /// Returns the height of the camera's picture in CSS pixels, by which motions are measured.
   height() { return this.canvas.clientHeight / this.growth(); }
 
-  /// Something is to be seen otherwise; moving: and will change again soon.
+  /// Requests another picture. moving: true if the view will soon change again.
   change(moving = false) {
     this.moving = moving;
     this.sample = -1;
@@ -204,7 +204,7 @@ class Viewer {
     if (moving && !this.playing) this.pause = setTimeout(() => this.change(), 150);
   }
 
-  /// Notes that the picture is whole, or is not yet.
+  /// Notes whether the picture is complete.
   rest(is_whole) { this.canvas.dataset.rest = String(is_whole); }
 
   move(camera, moving = true) {
@@ -228,13 +228,13 @@ class Viewer {
     }
   }
 
-  /// Where points are seen, CSS pixels from the top left; nothing for those behind the camera.
+  /// Returns the places of points in CSS pixels from the top left; nothing for points behind the camera.
   places(points) {
     const { frame, whole } = this.caster, { clientWidth, clientHeight } = this.canvas;
     return places_of(points, { ...frame, pixel_size: frame.pixel_size * whole[1] / clientHeight }, [clientWidth, clientHeight]);
   }
 
-  /// Labels stand at their atoms, in front of all.
+  /// Draws labels at their atoms, in front of everything.
   draw_labels() {
     const { labels } = this.figure, dark = this.background.reduce((sum, c) => sum + c, 0) < 1.5;
     $("labels").classList.toggle("on-dark", dark);
@@ -245,13 +245,13 @@ class Viewer {
     });
   }
 
-  /// Returns the milliseconds that it takes.
+  /// Draws a draft, and returns the milliseconds that it takes.
   draw_draft(width, height) {
     const began = performance.now(), scale = this.draft_scale;
     this.begin(Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale)));
     this.caster.cast(0, { shade: false, lines: false, draft: true });
     this.caster.present(linear_from_srgb(this.background));
-    this.caster.read(0, 0, 1, 1, 2);  // waits for the device
+    this.caster.read(0, 0, 1, 1, 2);  // waits until the device has drawn
     const took = performance.now() - began;
     this.draft_scale = Math.min(1, Math.max(0.125, scale * Math.sqrt(kDraft / Math.max(took, 1))));
     if (this.draft_scale > 0.8) this.draft_scale = 1;
@@ -268,7 +268,7 @@ class Viewer {
     else this.rest(true);
   }
 
-  /// What is seen at a place of the window: {atom, place, primitive, point}, or null. place: the atom's number in the names.
+  /// Returns what is at a place of the window: {atom, place, primitive, point}, or null. place: index in the names.
   async pick(x, y) {
     if (!this.caster || this.saving) return null;
     if (this.casts && this.sample < 0) { this.moving = false; const [width, height] = this.pixels(); this.draw_sample(width, height); }
@@ -289,7 +289,7 @@ class Viewer {
     return `${names.residues[this.residue_of(atom)]} ${names.atoms[tables.shown[atom]]}`;
   }
 
-  /// What the page says of a picked point, and how far its atom is from the one picked before.
+  /// Returns a sentence about a picked point, with the distance from the atom that was picked before.
   tell(picked) {
     const before = this.last_picked;
     this.last_picked = picked?.atom;
@@ -302,7 +302,7 @@ class Viewer {
     return `${this.words(picked)}; ${distance.toFixed(2)} Å from ${this.atom_name(before)}`;
   }
 
-  /// Atom and residue, and which patch it is on.
+  /// Returns the names of the atom, its residue and its patch.
   words(picked) {
     if (picked.primitive === kOnPlane) return `${this.atom_name(picked.atom)} – nearest to this point of the cut`;
     const record = this.figure.tables.primitives.subarray(12 * picked.primitive, 12 * picked.primitive + 12), kind = record[7];
@@ -314,7 +314,7 @@ class Viewer {
     return `${this.atom_name(picked.atom)} – concave patch of ${contacts.join(", ")}`;
   }
 
-  /// Labels on a picture so many pixels wide.
+  /// Paints labels on a picture with this width in pixels.
   paint_labels(context, width) {
     const style = getComputedStyle($("labels")), scale = width / this.canvas.clientWidth;
     context.scale(scale, scale);

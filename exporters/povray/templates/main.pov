@@ -1,12 +1,12 @@
 
-// Whether each piece has textures of its own; positions and normals are those of the scene, so one texture serves all, as
-// does one that was declared before.
+// Meniscus_Own_Textures: whether each piece has its own textures. Positions and normals need one texture for all, as
+// does a texture that was declared before.
 #ifndef (Meniscus_Texture)
   #declare Meniscus_Own_Textures = (Meniscus_Buffer != 1 & Meniscus_Buffer != 2);
 #else
   #declare Meniscus_Own_Textures = (Meniscus_Buffer > 2);
 #end
-// POV-Ray's shadowless lights make no highlights: where shadows are not wanted, it is the molecule that casts none.
+// POV-Ray's shadowless lights make no highlights, so without shadows the molecule casts none.
 #ifndef (Meniscus_Shadows) #declare Meniscus_Shadows = @SHADOWS@; #end
 #ifndef (Meniscus_Shadow_Softness) #declare Meniscus_Shadow_Softness = @SOFTNESS@; #end
 #declare Meniscus_Casts = (Meniscus_Shadows > 0);

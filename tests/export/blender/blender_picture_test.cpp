@@ -21,7 +21,7 @@ namespace meniscus::testing {
 namespace {
 
 constexpr int kWidth = 200, kHeight = 150;
-constexpr double kTolerance = 0.002;  // Å, of the mesh
+constexpr double kTolerance = 0.002;  // tolerance of the mesh in Å
 
 std::string xyzr(const Balls& balls) {
   std::string text;
@@ -31,7 +31,7 @@ std::string xyzr(const Balls& balls) {
   return text;
 }
 
-/// Planes of an EXR file by the last two parts of their names, "Depth.Z" and so on; rows from the top.
+/// Reads the planes of an EXR file by the last two parts of their names, such as "Depth.Z"; rows run from the top.
 std::map<std::string, std::vector<float>> read_passes(const std::string& path) {
   const auto file = OIIO::ImageInput::open(path);
   std::map<std::string, std::vector<float>> planes;
@@ -49,7 +49,7 @@ std::map<std::string, std::vector<float>> read_passes(const std::string& path) {
   return planes;
 }
 
-/// Exports, renders and reads back.
+/// Exports a surface, renders it in Blender and reads the passes back.
 std::map<std::string, std::vector<float>> render(const Balls& balls, const Camera& camera) {
   const test::TemporaryFolder folder;
   const std::string mns = (folder.path() / "molecule.mns").string(), exr = (folder.path() / "passes.exr").string();
@@ -71,7 +71,7 @@ struct Difference {
   double mean_angle = 0.0;  ///< degrees, among pixels of equal depth
 };
 
-/// A pixel agrees when its depth is that of the oracle at its centre or one of four points 1/20 pixel away.
+/// Counts a pixel as equal when its depth is the oracle's at its centre or at one of four points 1/20 pixel away.
 Difference compare(const Balls& balls, const Camera& camera, std::map<std::string, std::vector<float>>& planes) {
   const SphereTracer oracle(balls, kWater, 0.25);
   const ViewBasis basis = view_basis(camera);
@@ -123,7 +123,7 @@ void expect_agreement(const Balls& balls, Projection projection) {
   EXPECT_LT(double(d.normal), 0.001 * double(d.surface));
   EXPECT_LT(d.mean_angle, 0.1);
 
-  // The comparison must be able to fail: one pixel to the side.
+  // The comparison must be able to fail, as it does with planes shifted by one pixel.
   for (auto& [name, plane] : planes) std::rotate(plane.begin(), plane.begin() + 1, plane.end());
   EXPECT_GT(double(compare(balls, camera, planes).depth), 0.05 * double(d.surface));
 }

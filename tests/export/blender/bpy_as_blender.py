@@ -58,7 +58,7 @@ def main(arguments):
 
 
 def ended():
-    """The exit status that main comes to."""
+    """Returns the exit status of main."""
     try:
         main(sys.argv[1:])
     except SystemExit as end:
@@ -71,7 +71,7 @@ def ended():
     return 0
 
 
-# Not by the end of the interpreter: there bpy 4.5 destroys a condition that a thread of its own waits for, and at times hangs.
+# The process ends at once: in the interpreter's own end bpy 4.5 at times hangs in a condition that a thread waits for.
 status = ended()
 atexit._run_exitfuncs()
 sys.stdout.flush()

@@ -39,7 +39,7 @@ def update():
 
 
 def wanted(*arguments):
-    """Area and volume in the program's words, a pair for each line."""
+    """Returns area and volume as the program prints them, a pair per line."""
     said = subprocess.run([PROGRAM, "surface", *arguments, "--json", "-q", "--device", "cpu"], check=True, capture_output=True, text=True).stdout
     try:
         lines = [json.loads(said)]

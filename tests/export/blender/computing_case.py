@@ -13,14 +13,14 @@ del sys.argv[1:4]
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import samples  # noqa: E402
 
-package = types.ModuleType("meniscus_import")  # without Blender's side of it
+package = types.ModuleType("meniscus_import")  # This stand-in leaves out the part of the add-on that needs Blender.
 package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 sys.modules["meniscus_import"] = package
 from meniscus_import.computing import engines  # noqa: E402
 
 
 class Quiet:
-    """A task that nobody looks at."""
+    """A task whose progress nobody watches."""
 
     def report(self, stage):
         pass

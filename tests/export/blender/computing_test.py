@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What computes surfaces for the Blender add-on, under plain Python: files of atoms, molecules, library and program, and its words."""
+"""The computing part of the Blender add-on, under plain Python: files of atoms, molecules, library, program,
+wording."""
 
 import os
 import re
@@ -71,7 +72,7 @@ class AtomFiles(WithFolder):
 
 
 class Molecules(WithFolder):
-    """Files that the library reads, beside what the program writes of them."""
+    """Files that the library reads give the same molecules as the program's output of them."""
 
     def setUp(self):
         super().setUp()
@@ -124,7 +125,7 @@ class Molecules(WithFolder):
         self.assertEqual(every.numbers, list(range(10)))
 
     def test_prepared_molecules_are_those_of_the_program(self):
-        """Each field of the panel, by its own value, and all that they leave alone."""
+        """Each field of the panel, changed alone, acts like the program's option and changes some molecule."""
         odd = os.path.join(self.folder, "odd.pdb")
         with open(odd, "w", encoding="ascii") as file:
             file.write(samples.TWO_COPIES)
@@ -225,7 +226,7 @@ class Engines(WithFolder):
         np.testing.assert_allclose(one["mesh.mean_curvature"], other["mesh.mean_curvature"], atol=1e-5)
 
     def test_curvatures_of_a_proxy_are_those_of_patches(self):
-        """Its triangles reach over borders, its vertices lie on the surface."""
+        """Triangles of a proxy reach over borders of patches, but its vertices lie on the surface."""
         found = engines.compute(self.tools, self.asked(density=4.0), None, self.folder, Quiet())
         mean, gaussian = found["mesh.mean_curvature"].astype(float), found["mesh.gaussian_curvature"]
         spheres = np.array([1 / 1.7, 1 / 1.55, 1 / 1.52, -1 / 1.4])
@@ -240,7 +241,7 @@ class Engines(WithFolder):
         same = np.isclose(mean, 1.0 / balls[off.argmin(axis=1), 3], atol=1e-5)
         np.testing.assert_array_equal(same[~on_atom], False)
         self.assertGreater(same[on_atom].mean(), 0.99)
-        # Of a torus one principal curvature is that of the probe.
+        # One principal curvature of a torus is the curvature of the probe.
         root = np.sqrt(np.maximum(mean[~of_sphere] ** 2 - gaussian[~of_sphere], 0.0))
         low = mean[~of_sphere] - root
         high = mean[~of_sphere] + root
@@ -249,7 +250,7 @@ class Engines(WithFolder):
     def test_frames_too(self):
         wanted = self.asked(file=samples.UBIQUITIN, selection="resi 1-4", frames="1-5:2", place=2)
         one, other = (engines.compute(tools, wanted, None, self.folder, Quiet()) for tools in (self.tools, self.alone))
-        self.assertAlmostEqual(one.header["area"] / other.header["area"], 1.0, places=6)  # positions have single precision
+        self.assertAlmostEqual(one.header["area"] / other.header["area"], 1.0, places=6)  # Positions have single precision.
         still = engines.compute(self.alone, self.asked(file=samples.UBIQUITIN, selection="resi 1-4"), None, self.folder, Quiet())
         self.assertNotAlmostEqual(one.header["area"] / still.header["area"], 1.0, places=4)
 
@@ -302,7 +303,7 @@ class Engines(WithFolder):
 
 
 class Wording(WithFolder):
-    """What a panel shows names its fields."""
+    """Messages name the panel's fields in place of the program's options."""
 
     def test_fields_are_those_of_the_panel(self):
         with open(os.path.join(ADDON, "meniscus_import", "settings.py"), encoding="utf-8") as file:
@@ -314,7 +315,7 @@ class Wording(WithFolder):
             self.assertRegex(said, rf"{option}\b")
 
     def test_no_text_of_the_program_keeps_an_option(self):
-        """Each literal of its sources that names one."""
+        """Every literal of the sources that names an option is translated."""
         root = os.path.dirname(os.path.dirname(os.path.dirname(ADDON)))
         texts = []
         for folder in ("core", "app", "exporters"):
@@ -360,7 +361,7 @@ class Wording(WithFolder):
                 self.assertNotRegex(str(caught.exception), r"--[a-z]")
 
     def test_atoms_of_a_trajectory_can_be_chosen(self):
-        """A trajectory of a part of the file."""
+        """The trajectory holds only a part of the file's atoms."""
         run = os.path.join(self.folder, "part.xyz")
         with open(run, "w", encoding="ascii") as file:
             for shift in (0.0, 1.0):

@@ -18,12 +18,12 @@ import samples  # noqa: E402
 
 PROGRAM, ADDON, BLENDER = sys.argv[1:4]
 FRAMES = (1, 3, 5)
-#: A pixel differs if a channel does by more.
+#: Largest difference of a channel between equal pixels.
 LIMIT = 16 / 255
 
 
 def pixels(path):
-    """sRGB and coverage: (rows, columns, 4)."""
+    """Returns sRGB colours and coverage, (rows, columns, 4)."""
     return np.asarray(OpenImageIO.ImageInput.open(path).read_image(OpenImageIO.FLOAT), dtype=np.float64)
 
 
@@ -37,7 +37,7 @@ class Eevee(unittest.TestCase):
         samples.export_run(PROGRAM, cls.run_folder)
 
     def render(self, name, *options, code=0):
-        """Lines of the driver about frames, and their pictures."""
+        """Returns the driver's JSON lines about frames, and the pictures that they name."""
         done = subprocess.run(
             [BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--",
              os.path.join(self.run_folder, "surface_sequence.json"), "--output", os.path.join(self.folder, name + "_##"), "--transparent", *options],
@@ -47,7 +47,7 @@ class Eevee(unittest.TestCase):
         return told, [pixels(file) for line in told for file in line["files"]]
 
     def share_that_differs(self, one, other):
-        """Of the pixels whose neighbours in `one` are as they are: on edges the two filter what lies in a pixel otherwise."""
+        """Returns the share of differing pixels away from edges of `one`, where the two engines filter differently."""
         around = np.lib.stride_tricks.sliding_window_view(one, (3, 3), axis=(0, 1))
         smooth = (around.max(axis=(3, 4)) - around.min(axis=(3, 4))).max(axis=2) < LIMIT
         smooth &= one[1:-1, 1:-1, 3] > 0.0

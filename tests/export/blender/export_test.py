@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How fine the files of `export blender` are, and what is said of their size: PROGRAM ADDON."""
+"""How fine the files of `export blender` are, and which sizes the program prints for them: PROGRAM ADDON."""
 
 import json
 import os
@@ -15,7 +15,7 @@ import numpy as np
 import samples
 
 PROGRAM, ADDON = sys.argv[1:3]
-package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # without Blender
+package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # The add-on is loaded without Blender.
 package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 from meniscus_import import mns_reader  # noqa: E402
 
@@ -33,14 +33,14 @@ class Export(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def export(self, *options, name="a.mns", code=0):
-        """The path and what was said."""
+        """Returns the path of the file and the program's messages."""
         done = subprocess.run([PROGRAM, "export", "blender", UBIQUITIN, "--select", "resi 1-15", "-o", self.path(name), "--device", "cpu",
                                "--force", *options], capture_output=True, text=True)
         self.assertEqual(done.returncode, code, done.stderr)
         return self.path(name), done.stderr
 
     def surface(self, *options):
-        """The one object, and the line about triangles."""
+        """Returns the only object of a file and the printed line about triangles."""
         path, said = self.export(*options)
         (line,) = [line for line in said.splitlines() if " triangles " in line]
         megabytes = float(re.search(r"([0-9.]+) MB\Z", line).group(1))
@@ -50,7 +50,7 @@ class Export(unittest.TestCase):
         return surface, line
 
     def off(self, surface):
-        """How far vertices are from the spheres of their convex patches, Å; of all such vertices the largest."""
+        """Returns the largest distance of vertices from the spheres of their convex patches, in Å."""
         on = surface["mesh.triangle"][surface["mesh.kind"] == 0]
         atom = surface["convex.atom"][surface["mesh.patch"][surface["mesh.kind"] == 0]]
         origin = np.array(surface.header["mesh"]["origin"])
@@ -84,7 +84,7 @@ class Export(unittest.TestCase):
         self.assertEqual(said.header["mesh"]["tolerance"], 0.2)
 
     def test_even_meshes(self):
-        """Vertices on the surface, with its exact curvature, within the tolerance or as dense as asked."""
+        """Vertices lie on the surface with its exact curvature, within the tolerance or at the requested density."""
         dense, line = self.surface("--density", "2")
         self.assertIn(" triangles with 2 vertices per Å², ", line)
         self.assertIn(" triangles with 1 vertex per Å², ", self.surface("--density", "1")[1])
@@ -97,9 +97,9 @@ class Export(unittest.TestCase):
             a, b, c = (surface["mesh.position"][surface["mesh.triangle"][:, k]].astype(float) for k in range(3))
             sides = np.array([np.linalg.norm(u - v, axis=1) for u, v in ((a, b), (b, c), (c, a))])
             area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
-            shape = 4.0 * 3.0**0.5 * area / (sides**2).sum(axis=0)  # 1 of an equilateral one
+            shape = 4.0 * 3.0**0.5 * area / (sides**2).sum(axis=0)  # An equilateral triangle gives 1.
             self.assertGreater(np.median(shape), 0.9)
-            # A vertex bulges as an atom, or as the probe does, or lies on a torus between them.
+            # A vertex bulges like an atom or like the probe, or it lies on a torus between them.
             mean = surface["mesh.mean_curvature"].astype(float)
             on_atoms = np.isclose(mean[:, None], 1.0 / np.unique(surface["atom.radius"]), atol=1e-4).any(axis=1)
             on_probes = np.isclose(mean, -1.0 / 1.4, atol=1e-4)
@@ -107,7 +107,7 @@ class Export(unittest.TestCase):
             self.assertGreater(on_probes.mean(), 0.1)
 
     def test_no_blend_file(self):
-        """Blender would refuse it without a reason."""
+        """The program refuses the name, for Blender would refuse the file without a reason."""
         for name in ("a.blend", "B.blend"):
             path, said = self.export(name=name, code=2)
             self.assertIn("name this one .mns", said)
@@ -121,7 +121,7 @@ class Export(unittest.TestCase):
                 self.assertFalse(os.path.exists(self.path("none.mns")))
 
     def test_a_large_run_says_how_to_make_it_smaller(self):
-        """Before its second frame; frames are coarser than a single surface."""
+        """The advice comes before the second frame; frames are coarser than a single surface."""
         words = [PROGRAM, "export", "blender", UBIQUITIN, "--repeat", "300", "-o", self.path("many"), "--device", "cpu"]
         with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as child:
             line = next(line for line in child.stderr if " triangles " in line)

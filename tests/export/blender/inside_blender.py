@@ -182,7 +182,8 @@ class Import(unittest.TestCase):
         self.assertFalse({"SMOOTH_CURVATURE", "BURIED_AREA", "RESIDUE"} & looks.offered(plain.data))
 
     def test_a_file_without_them_imports_as_before(self):
-        """As 0.1.0 wrote it."""
+        """A file of version 0.1.0, without the newer arrays, imports with the same shape and offers fewer
+        colourings."""
         with open(path_of("cage"), "rb") as file:
             data = file.read()
         header, _ = samples.header_of(data)
@@ -211,7 +212,7 @@ class Import(unittest.TestCase):
                 shader = materials.shader_of(material)
                 self.assertTrue(shader.inputs["Alpha"].is_linked)
                 self.assertEqual(any(node.type == "NEW_GEOMETRY" for node in material.node_tree.nodes), film)
-        plain = imported("triple").data  # whose materials cost nothing more than before
+        plain = imported("triple").data  # A surface without opacity has a material without a node for it.
         self.assertNotIn("opacity", plain.attributes)
         self.assertFalse(any(materials.shader_of(material).inputs["Alpha"].is_linked for material in plain.materials))
         for wrong in ([0.25, 1.0], [0.5, 0.5, float("nan")], [0.5, 0.5, 1.5]):
@@ -281,7 +282,7 @@ class Import(unittest.TestCase):
         self.assertEqual(view.view_transform, "Standard")
 
     def test_centred_surfaces_of_one_molecule_stay_together(self):
-        """A part of it under the same name, in another file: where the whole is. Another molecule: in its own middle."""
+        """A part under the molecule's name lies where the whole does; another molecule lies around its own middle."""
         part = os.path.join(FOLDER, "part.mns")
         subprocess.run([PROGRAM, "export", "blender", os.path.join(FOLDER, "triple.xyzr"), "--select", "index 0 1", "-o", part, "--force", "-q"],
                        check=True, stdout=subprocess.DEVNULL)
@@ -302,7 +303,7 @@ class Import(unittest.TestCase):
         self.assertNotEqual(mesh.materials[0], theirs)
         shader = materials.shader_of(mesh.materials[0])
         self.assertTrue(shader.inputs["Base Color"].is_linked)
-        # One of an earlier version of the add-on, which was not marked, is.
+        # A material that an earlier version of the add-on made without a mark is taken for ours.
         del mesh.materials[0]["meniscus_material"]
         bpy.data.materials.remove(theirs)
         mesh.materials[0].name = "Meniscus outer"
@@ -344,7 +345,7 @@ class Import(unittest.TestCase):
         np.testing.assert_allclose(normals["cavities"], together[~outer], atol=2e-3)
 
     def dress(self, item):
-        """A parent, a collection, a constraint, keys of the object and of its mesh, properties; as dressing_of tells them."""
+        """Gives the object a parent, a collection, a constraint, keys and properties, as dressing_of describes them."""
         scene = bpy.context.scene
         item.parent = bpy.data.objects.new("stand", None)
         mine = bpy.data.collections.new("mine")

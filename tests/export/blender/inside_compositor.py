@@ -15,12 +15,12 @@ PROGRAM = sys.argv[-1]
 WIDTH, HEIGHT = 64, 48
 CAMERA = {"position": [4, 1, 60], "target": [4, 1, 0], "up": [0, 1, 0], "projection": "orthographic", "height": 14}
 ATOM = "ATOM  %5d  CA  ALA %s%4d    %8.3f%8.3f%8.3f  1.00 10.00           C\n"
-#: Each chain has the surface that it has alone, and B is behind A.
+#: Each chain has the surface that it has alone, and B lies behind A.
 PAIR = "".join(ATOM % (n + 1, chain, n + 1, x, y, z) for n, (chain, x, y, z) in enumerate((("A", 0, 0, 0), ("A", 2.5, 0, 0), ("B", 4.2, 1, -15), ("B", 7, 2, -15))))
 
 
 def tree_and_output(sockets):
-    """The scene's compositor, empty, and what takes the picture."""
+    """Returns the emptied compositor of the scene and the node that takes the picture."""
     scene = bpy.context.scene
     if bpy.app.version >= (5, 0, 0):
         tree = bpy.data.node_groups.new("compositor", "CompositorNodeTree")
@@ -60,7 +60,7 @@ class Compositor(unittest.TestCase):
         return path
 
     def seen(self, build):
-        """What the compositor makes: (rows from the top, columns, channels)."""
+        """Returns the compositor's picture, (rows from the top, columns, channels)."""
         tree, output = tree_and_output("NodeSocketColor")
         tree.links.new(build(tree), output)
         path = os.path.join(self.folder, "seen.exr")
@@ -86,7 +86,7 @@ class Compositor(unittest.TestCase):
         self.assertGreaterEqual(names, {"Combined", "Depth", "N", "P", "Nview", "Pview", "forward", *plain,
                                         *(f"Crypto{what}{n:02}" for what in ("Chain", "Residue", "Atom") for n in range(3))})
         motion = self.seen(lambda tree: self.image_node(tree, path).outputs["forward"])
-        step = 2.0 * HEIGHT / CAMERA["height"]  # pixels of 2 Å
+        step = 2.0 * HEIGHT / CAMERA["height"]  # 2 Å in pixels
         self.assertLess(abs(motion[HEIGHT // 2, WIDTH // 2, :3] - [step, 0, 1]).max(), 1e-3)
         self.assertTrue((motion[0, 0, :3] == 0).all())
         if not plain:
@@ -113,7 +113,7 @@ class Compositor(unittest.TestCase):
         self.assertGreater(first.sum(), 100)
         self.assertLess(abs(first - covered["A"]).max(), 1e-5)
         second = matte("B")
-        self.assertGreater(np.minimum(covered["A"], covered["B"]).sum(), 5)  # one hides something of the other
+        self.assertGreater(np.minimum(covered["A"], covered["B"]).sum(), 5)  # A hides a part of B.
         self.assertTrue((second <= covered["B"] + 1e-5).all() and (second >= covered["B"] - covered["A"] - 1e-5).all())
         atoms = [matte(f"A/ALA {n}/CA", "CryptoAtom") for n in (1, 2)]
         self.assertLess(abs(sum(atoms) - first).max(), 1e-5)

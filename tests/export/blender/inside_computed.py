@@ -26,7 +26,7 @@ def signed_volume(item):
 
 
 def atoms_object(name="atoms", scale=0.01, molecule="triple"):
-    """As Molecular Nodes makes them: a vertex an atom, attributes, units of its own."""
+    """Makes atoms like those of Molecular Nodes: a vertex per atom, attributes, units of its own."""
     rows = np.array(samples.MOLECULES[molecule], dtype=np.float32)
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(len(rows))
@@ -92,7 +92,7 @@ class Computed(ComputedCase):
         self.assertEqual(item["meniscus_error"], "")
 
     def test_a_file_on_another_drive_is_named_whole(self):
-        """As Windows has them, where nothing leads from one to the other."""
+        """On Windows no relative path leads from one drive to another."""
         bpy.ops.wm.save_as_mainfile(filepath=os.path.join(FOLDER, "drive.blend"))
         self.assertTrue(build.remembered_path(TRIPLE).startswith("//"))
         with unittest.mock.patch.object(os.path, "relpath", side_effect=ValueError("path is on mount 'D:'")):
@@ -125,7 +125,7 @@ class Computed(ComputedCase):
         bpy.ops.ed.undo_push(message="before")
         first = measures(item)
         item.meniscus.probe = 2.5
-        bpy.ops.ed.undo_push(message="after")  # as when a slider is let go: the surface comes later
+        bpy.ops.ed.undo_push(message="after")  # The surface comes after this step, as it does when a slider is let go.
         name = item.name
         computed.compute_now(item)
         self.assertNotEqual(measures(item), first)
@@ -147,7 +147,7 @@ class Computed(ComputedCase):
         item = of_file(UBIQUITIN, selection="resi 1-20", detail="PROXY")
         area, volume = measures(item)
         self.assertAlmostEqual(sum(polygon.area for polygon in item.data.polygons) / item.meniscus.scale**2 / area, 1.0, delta=0.06)
-        self.assertAlmostEqual(signed_volume(item) / volume, 1.0, delta=0.03)  # atoms can be told
+        self.assertAlmostEqual(signed_volume(item) / volume, 1.0, delta=0.03)  # The mesh shows single atoms.
         counts = []
         for density in (0.5, 1.0):
             item.meniscus.density = density
@@ -182,7 +182,7 @@ class Computed(ComputedCase):
         self.assertEqual(parts["DROP"][0] + parts["ONLY"][0], whole)
         self.assertEqual((parts["DROP"][2], parts["ONLY"][2]), ({0}, {1}))
         self.assertAlmostEqual(parts["DROP"][1] + parts["ONLY"][1], wanted(CAGE)[0][0], places=6)
-        item.meniscus.file = TRIPLE  # which has none
+        item.meniscus.file = TRIPLE  # TRIPLE has no cavities.
         self.assertEqual(update(), {"FINISHED"})
         self.assertEqual(len(item.data.polygons), 0)
 
@@ -217,7 +217,7 @@ class Computed(ComputedCase):
         self.assertEqual(measures(item), wanted(TRIPLE, "--probe", "2")[0])
         item.meniscus.probe = 2.4
         computed.update_in_background(item)
-        bpy.data.objects.remove(item)  # nobody is left to take it
+        bpy.data.objects.remove(item)  # No object is left to take the result.
         computed.wait()
 
     def test_materials_modifiers_and_attributes_of_the_user_stay(self):
@@ -233,7 +233,7 @@ class Computed(ComputedCase):
         self.assertEqual((item.data.materials[0], len(item.modifiers)), (own, 1))
         self.assertIsNotNone(item.data.animation_data.action)
         np.testing.assert_array_equal(attributes.read(item.data, "marks", "FLOAT"), attributes.read(item.data, "atom_index", "INT"))
-        item.meniscus.cavities = "ONLY"  # there are none
+        item.meniscus.cavities = "ONLY"  # The surface has no cavities.
         update()
         self.assertEqual(len(item.data.polygons), 0)
         item.meniscus.cavities = "KEEP"
@@ -277,7 +277,7 @@ class Computed(ComputedCase):
                     bpy.context.scene.frame_set(frame)
                     self.assertEqual(item["meniscus_error"], "", frame)
         bpy.context.scene.frame_set(3)
-        bpy.context.scene.frame_set(9)  # what was asked for before is not wanted any more
+        bpy.context.scene.frame_set(9)  # Frames that were requested before are not wanted any more.
         self.assertEqual({each.key for each in computed._ahead.values()}, set(computed._ahead))
         self.assertLessEqual(len(computed._ahead), computed.AHEAD)
 
@@ -299,7 +299,7 @@ class Computed(ComputedCase):
             np.testing.assert_allclose(attributes.read(mesh, "lipophobicity", "FLOAT")[inner, 0], 0.5 * number[inner])
 
     def vertices_of_one_atom(self, mesh):
-        """Those whose faces all touch the same atom."""
+        """Returns the vertices whose faces all touch the same atom."""
         atom, corner = attributes.read(mesh, "atom_index", "INT")[:, 0], np.empty(len(mesh.loops), dtype=np.int32)
         mesh.loops.foreach_get("vertex_index", corner)
         low, high = np.full(len(mesh.vertices), 1 << 30), np.full(len(mesh.vertices), -1)
@@ -325,7 +325,7 @@ class Computed(ComputedCase):
             rows[2, 1] += 0.2 * scene.frame_current
             atoms.data.vertices.foreach_set("co", (rows * 0.01).ravel())
 
-        bpy.app.handlers.frame_change_pre.append(move)  # behind ours, until there is an object that follows
+        bpy.app.handlers.frame_change_pre.append(move)  # It runs after the add-on's handler until an object follows.
         self.addCleanup(bpy.app.handlers.frame_change_pre.remove, move)
         bpy.ops.object.meniscus_from_atoms(wait=True)
         item = bpy.context.view_layer.objects.active
@@ -376,7 +376,7 @@ class Computed(ComputedCase):
         self.assertLess(np.abs(world(other).min(axis=0) + world(other).max(axis=0)).max(), 0.02)
 
     def test_the_origin_of_an_object_lies_in_its_molecule(self):
-        """Centred or where the file has it, at any scale, and when the selection changes."""
+        """The origin follows the molecule, centred or in the file's place, at any scale and for another selection."""
         centers = np.array(samples.MOLECULES["triple"])[:, :3] + 50.0
         path = os.path.join(FOLDER, "far.xyzr")
         with open(path, "w", encoding="ascii") as file:
@@ -397,7 +397,7 @@ class Computed(ComputedCase):
             self.assertAlmostEqual(float(positions(item.data)[:, 0].min()) / 0.5, centers[:2, 0].min() - 1.7 - middle[0], delta=0.05)
 
     def test_an_object_of_0_1_0_stays_where_it_was(self):
-        """Its mesh has the coordinates of the file, its place takes the origin away."""
+        """Its mesh has the coordinates of the file, and its location takes the origin away."""
         item = of_file()
         origin = np.array(item["meniscus_origin"][:])
         world = np.array([item.matrix_world @ vertex.co for vertex in item.data.vertices])

@@ -23,7 +23,7 @@ import fingerprint  # noqa: E402
 from meniscus_import import attributes, compat, computed  # noqa: E402
 
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
-#: What of the scene knows of new objects, and that they are selected.
+#: Differences that every new and selected object brings to the scene.
 NEW_OBJECTS = (r"scenes/Scene: \.collection\.((collection_)?(children|objects)|all_objects)", r"scenes/Scene: \.(objects|view_layers\[0\]\.(objects|layer_collection))",
           r"scenes/Scene: \.(view_layers\[0\]\.)?active")
 
@@ -54,7 +54,7 @@ def grid(name, side, cells):
 
 
 def dress():
-    """Floor, a waved second object, lights, world, camera, collections, keys, and settings that are nobody's defaults."""
+    """Makes a floor, a waved second object, lights, world, camera, collections, keys, and unusual settings."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     addon_utils.enable("meniscus_import", default_set=True)
     preferences = bpy.context.preferences.addons[computed.__package__].preferences
@@ -106,7 +106,7 @@ def dress():
 
 
 def picture(name):
-    """(rows, columns, 3), 0 to 1."""
+    """Returns a picture of the scene, (rows, columns, 3), 0 to 1."""
     scene = bpy.context.scene
     path, before = os.path.join(PICTURES or FOLDER, f"dressed_{name}.png"), scene.render.filepath
     scene.render.filepath = path
@@ -126,13 +126,13 @@ class Dressed(unittest.TestCase):
         self.before = fingerprint.of_data()
 
     def check(self, *allowed):
-        """Nothing of before has changed but what knows of new objects, and that they are selected now."""
+        """Checks that earlier data has not changed, except where the scene lists and selects new objects."""
         pattern = "|".join((*NEW_OBJECTS, *allowed))
         found = [each for each in fingerprint.differences(self.before, fingerprint.of_data()) if not re.match(pattern, each)]
         self.assertEqual(found, [])
 
     def check_picture(self, name, before):
-        """Theirs is the same picture when what came is hidden, and another when it shows."""
+        """Checks that the user's picture is the same when new objects are hidden, and another when they show."""
         after = picture(name)
         self.assertGreater(float((np.abs(after - before).max(axis=2) > 0.02).mean()), 0.05)
         for item in bpy.data.objects:
@@ -169,7 +169,7 @@ class Dressed(unittest.TestCase):
                 self.before = fingerprint.of_data()
                 bpy.ops.import_scene.meniscus_sequence(filepath=os.path.join(FOLDER, "run", "surface_sequence.json"), mode=mode, center=True,
                                                        use_camera=False, set_time=False, start=19.0, outside="HOLD")
-                self.check(r"scenes/Scene: \.render\.use_lock_interface: False became True")  # a stream's mesh is refilled in a render
+                self.check(r"scenes/Scene: \.render\.use_lock_interface: False became True")  # A stream refills its mesh in a render.
 
     def test_a_surface_is_computed_and_computed_anew(self):
         before = picture("alone")
@@ -188,12 +188,12 @@ class Dressed(unittest.TestCase):
         second = picture("computed_anew")
         self.assertGreater(float((np.abs(second - first).max(axis=2) > 0.02).mean()), 0.01)
         atom, marks = attributes.read(item.data, "atom_index", "INT"), attributes.read(item.data, "marks", "FLOAT")
-        known = np.isin(atom, marked)  # others were not there to be marked
+        known = np.isin(atom, marked)  # Faces of atoms that were absent then have no marks.
         self.assertGreater(known.mean(), 0.9)
         np.testing.assert_array_equal(marks, np.where(known, atom + 0.5, 0.0))
         item.meniscus.probe, item.meniscus.density = 1.4, 1.0
         bpy.ops.object.meniscus_update(wait=True)
-        self.check()  # and back
+        self.check()  # The old values bring the old picture back.
         np.testing.assert_array_equal(picture("computed_back"), first)
 
     def dress_surface(self, item):

@@ -20,14 +20,14 @@ from meniscus_import import sequence_reader  # noqa: E402
 
 RUN = os.path.join(FOLDER, "run")
 MANIFEST = os.path.join(RUN, "surface_sequence.json")
-NUMBERS = [1, 3, 5]  # frames of the trajectory, of scene frames 1, 2, 3
-#: Pictures of the same scene differ where threads add up in another order, and where a ray just meets an edge.
+NUMBERS = [1, 3, 5]  # Frames of the trajectory in scene frames 1, 2, 3.
+#: Pictures of one scene differ where threads add up in another order, and where a ray just meets an edge.
 ROUNDING = 1.01 / 255
 FEW = 0.001
 
 
 def drive(*arguments):
-    """Exit code, the JSON lines, and standard error of the driver in a Blender of its own."""
+    """Returns the exit code, JSON lines and standard error of the driver in a Blender of its own."""
     command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python",
                os.path.join(ADDON, "render_mns.py"), "--", *arguments]
     environment = {key: value for key, value in os.environ.items() if key != "BLENDER_USER_SCRIPTS"}
@@ -47,7 +47,7 @@ def pixels(path):
 
 
 def other(a, b):
-    """Share of pixels that differ by more than rounding."""
+    """Returns the share of pixels that differ by more than rounding."""
     return float((np.abs(a - b).max(axis=2) > ROUNDING).mean())
 
 
@@ -80,7 +80,7 @@ class Driven(unittest.TestCase):
             made = self.pictures(mode, "--mode", mode)
             for number in NUMBERS:
                 self.assertLess(other(made[number], driven[number]), FEW, (mode, number))
-        # By frame or by place in the run; buffers between pictures leave the pictures as they are.
+        # Frames are chosen by number or by place in the run; buffers between pictures leave the pictures unchanged.
         self.assertEqual(list(self.pictures("place", "--scene-frames", "2")), [3])
         beside = self.pictures("beside", "--frames", "5,1-4:4", "--passes", os.path.join(self.folder, "passes_#.exr"))
         self.assertEqual(list(beside), [5, 1])
@@ -89,7 +89,7 @@ class Driven(unittest.TestCase):
             self.assertGreater(os.path.getsize(os.path.join(self.folder, f"passes_{number}.exr")), 1000)
 
     def test_a_camera_of_the_command_stays_for_all_frames(self):
-        """Instead of one that moves: the pictures of the run whose camera it is."""
+        """A run whose camera moves gives the pictures of the run that has the command's camera."""
         turning = os.path.join(FOLDER, "turning", "surface_sequence.json")
         camera = os.path.join(self.folder, "camera.json")
         with open(camera, "w", encoding="utf-8") as file:
@@ -126,9 +126,9 @@ class Driven(unittest.TestCase):
         blurred = {mode: self.pictures(mode, "--mode", mode, "--motion-blur", "0.5", "--frames", "3")[3]
                    for mode in ("driver", "bake", "stream")}
         self.assertGreater(other(blurred["driver"], sharp), 0.05)
-        for mode in ("bake", "stream"):  # a few samples fall to another surface of the same place
+        for mode in ("bake", "stream"):  # A few samples fall to another surface in the same place.
             self.assertLess(other(blurred[mode], blurred["driver"]), 2 * FEW, mode)
-        # Without the attribute nothing is blurred, so it is the velocity that does it.
+        # Nothing is blurred without the attribute, so the velocity makes the blur.
         folder = shutil.copytree(RUN, os.path.join(self.folder, "copy"))
         path = os.path.join(folder, "surface_00003.mns")
         with open(path, "rb") as file:

@@ -28,7 +28,7 @@ class Extension(unittest.TestCase):
         bpy.ops.wm.read_homefile(use_empty=True, load_ui=False)
         self.assertEqual(bpy.ops.object.meniscus_from_file(filepath=MOLECULE, wait=True, detail="FINE"), {"FINISHED"})
         item = bpy.context.view_layer.objects.active
-        self.assertAlmostEqual(item["meniscus_area"] / float(AREA), 1.0, places=9)  # another compiler rounds otherwise
+        self.assertAlmostEqual(item["meniscus_area"] / float(AREA), 1.0, places=9)  # Another compiler rounds differently.
         item.meniscus.color = "chain"
         self.assertEqual(bpy.ops.object.meniscus_update(wait=True), {"FINISHED"})
         self.render(item)
@@ -55,7 +55,7 @@ class Extension(unittest.TestCase):
         scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 16, False
         scene.render.resolution_x, scene.render.resolution_y, scene.render.filepath = 320, 240, PICTURE
         bpy.ops.render.render(write_still=True)
-        self.assertGreater(os.path.getsize(PICTURE), 20_000)  # a plain one is far smaller
+        self.assertGreater(os.path.getsize(PICTURE), 20_000)  # An empty picture is far smaller.
 
 
 if __name__ == "__main__":

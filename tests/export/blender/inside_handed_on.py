@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What Blender itself makes of frames: modifiers, Alembic and USD get each frame of a bake, of a stream and of a run in the panel."""
+"""Blender itself hands on each frame of a bake, of a stream and of a run in the panel to modifiers, Alembic and USD."""
 
 import collections
 import json
@@ -29,7 +29,7 @@ def anew():
 
 
 def of_panel(path):
-    """The same run as that of the manifest, computed in Blender."""
+    """Makes the manifest's run by computing it in Blender."""
     preferences = bpy.context.preferences.addons[computed.__package__].preferences
     preferences.package, preferences.program = os.environ["MENISCUS_PACKAGE"], PROGRAM
     bpy.ops.object.meniscus_from_file(filepath=samples.UBIQUITIN, selection="resi 1-15", is_run=True, wait=True)
@@ -40,18 +40,18 @@ def of_panel(path):
     return item
 
 
-#: Ways of a run into a scene.
+#: Ways that bring a run into a scene.
 WAYS = {"bake": sequence.bake, "stream": sequence.stream, "panel": of_panel}
 
 
 def scene_of(way):
-    """Its object, in an empty scene."""
+    """Returns the run's object in an empty scene."""
     anew()
     return WAYS[way](MANIFEST)
 
 
 def shown(item, time):
-    """The object's own mesh."""
+    """Returns the object's own mesh at a time."""
     bpy.context.scene.frame_set(time)
     return item.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
 
@@ -75,7 +75,7 @@ def area_of(points, triangles):
 
 
 def measures_of(item):
-    """Triangles and area at each time, in the scene."""
+    """Returns triangles and area at each time, measured in the scene."""
     rows = []
     for time in FRAMES:
         mesh = shown(item, time)
@@ -85,13 +85,13 @@ def measures_of(item):
 
 
 def open_edges(mesh):
-    """How many edges have not two faces."""
+    """Returns how many edges lack a second face."""
     counts = collections.Counter(edge for face in mesh.polygons for edge in face.edge_keys)
     return sum(count != 2 for count in counts.values())
 
 
 def half_box(item):
-    """A box that holds one half of the object."""
+    """Makes a box that holds one half of the object."""
     corners = [(x, y, z) for x in (0.0, 9.0) for y in (-9.0, 9.0) for z in (-9.0, 9.0)]
     mesh = bpy.data.meshes.new("box")
     mesh.from_pydata(corners, [], [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
@@ -103,7 +103,7 @@ def half_box(item):
 
 
 def world_normals(item):
-    """Of the corners of what it shows, in the scene."""
+    """Returns the normals at the corners of the object's evaluated mesh, turned into the scene."""
     item = item.evaluated_get(bpy.context.evaluated_depsgraph_get())
     return samples.corner_normals(item.data) @ np.array(item.matrix_world.to_3x3().normalized()).T
 
@@ -115,7 +115,7 @@ class HandedOn(unittest.TestCase):
         self.counts = [sequence_reader.read(MANIFEST).read(place).objects[0].triangle_count for place in FRAMES]
 
     def test_modifiers_act_on_every_frame(self):
-        """Decimate and Boolean: of each frame another mesh, closed, as large as it must be."""
+        """Decimate and Boolean give each frame another closed mesh of the right size."""
         for way in WAYS:
             item = scene_of(way)
             fewer, cut = item.modifiers.new("Fewer", "DECIMATE"), item.modifiers.new("Cut", "BOOLEAN")
@@ -143,7 +143,7 @@ class HandedOn(unittest.TestCase):
                 self.assertGreater(min(halves), 0.2 * volume, text)
 
     def test_other_programs_get_every_frame(self):
-        """Alembic and USD as Blender and as their own libraries read them. Debian's Blender has neither."""
+        """Alembic and USD files are read by Blender and by their own libraries. Debian's Blender has neither format."""
         kinds = [kind for kind in ("alembic", "usd") if f"{kind}_export" in dir(bpy.ops.wm)]
         if not kinds:
             self.skipTest("this Blender writes neither Alembic nor USD")
@@ -176,7 +176,7 @@ class HandedOn(unittest.TestCase):
                 self.assertLessEqual(wanted, found, text)
 
     def check_by_its_library(self, path, measures):
-        """Triangles and area at each time, in another program. MENISCUS_READERS: a Python with usd-core and alembic3d."""
+        """Checks triangles and area at each time by MENISCUS_READERS, a Python with usd-core and alembic3d."""
         fps = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
         words = [os.environ["MENISCUS_READERS"], os.path.join(HERE, "read_frames.py"), path, str(fps), *map(str, FRAMES)]
         found = subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True, env={"PATH": os.environ["PATH"]}).stdout

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Materials by attributes: what Cycles shows of each colouring and look, recoloured without a new surface; the asset library."""
+"""Materials by attributes: each colouring and look in Cycles, recoloured without a new surface; the asset library."""
 
 import os
 import subprocess
@@ -19,18 +19,18 @@ import samples  # noqa: E402
 from meniscus_import import attributes, build, compat, looks, materials, mns_reader  # noqa: E402
 
 SIZE = 48
-WAX_GRAIN = 0.14  # standard deviation of a channel, of the mean
+WAX_GRAIN = 0.14  # standard deviation of a channel divided by its mean
 #: Shares of the pixels that show glass.
-GLASS_EDGES, GLASS_DOTS = 0.006, 0.002  # 4.2: 0.0087, 4.5: 0.0085, 5.3: 0.0084; in a room that is bright everywhere: 0
+GLASS_EDGES, GLASS_DOTS = 0.006, 0.002  # Blender 4.2: 0.0087, 4.5: 0.0085, 5.3: 0.0084; evenly bright room: 0
 
 
 def pixel_of(_item):
-    """Linear colour in the middle of a picture of a face, seen straight on."""
+    """Returns the linear colour in the middle of a picture of a face that is seen straight on."""
     return picture()[SIZE // 2, SIZE // 2]
 
 
 def picture(samples=1, channels=slice(3)):
-    """Linear colours from above: (rows, columns, 3); channels: 3 for the alpha before nothing."""
+    """Returns linear colours seen from above, (rows, columns, 3); channels=3 is the alpha before nothing."""
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising = samples, False
@@ -55,7 +55,7 @@ def picture(samples=1, channels=slice(3)):
 
 
 def plate(**given):
-    """A square across the view with the same value everywhere."""
+    """Makes a square across the view with the same attribute values everywhere."""
     mesh = bpy.data.meshes.new("plate")
     mesh.from_pydata([(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)], [], [(0, 1, 2, 3)])
     if "ses_kind" not in given:
@@ -77,7 +77,7 @@ def plate(**given):
 
 
 def bumpy_slab(side, atom, depth):
-    """A closed box whose upper and lower faces are waved as by atoms of a radius."""
+    """Makes a closed box whose upper and lower faces are waved like a layer of atoms of a radius."""
     count = 64
     across = np.linspace(-side, side, count)
     x, y = (each.ravel() for each in np.meshgrid(across, across))
@@ -107,7 +107,7 @@ class Looks(unittest.TestCase):
         addon_utils.enable("meniscus_import", default_set=True)
 
     def shown(self, coloring, **given):
-        """What the flat look shows of it."""
+        """Returns the colour by which the flat look shows a plate with these attributes."""
         item = plate(**given)
         self.assertEqual(bpy.ops.object.meniscus_look(look="FLAT", coloring=coloring), {"FINISHED"})
         color = pixel_of(item)
@@ -172,11 +172,11 @@ class Looks(unittest.TestCase):
         self.assertEqual(volume, {"CYCLES": True, "EEVEE": False})
         rough = [node.inputs["Roughness"].default_value for node in made.node_tree.nodes if "Roughness" in node.inputs]
         self.assertEqual(len(rough), 4)
-        self.assertGreater(min(rough), 0.01)  # of 1TII at 1200x900 Eevee 3.4 made 37 pixels black without
+        self.assertGreater(min(rough), 0.01)  # With smooth glass Eevee 3.4 made 37 pixels of 1TII black at 1200x900.
         self.assertTrue(getattr(made, "use_screen_refraction", False) or getattr(made, "use_raytrace_refraction", False))
 
     def test_what_is_behind_glass_can_be_told(self):
-        """Bumps of atoms, in front and behind, leave an edge where it is: bent as by real glass it would be everywhere and nowhere."""
+        """Bumps of atoms leave an edge behind the glass in place; real refraction would scatter it over the picture."""
         for side, light in ((-1.0, 1.0), (1.0, 0.0)):
             half = plate(Color=(light, light, light))
             half.location = (2.0 * side, 0.0, -2.0)
@@ -191,7 +191,8 @@ class Looks(unittest.TestCase):
         self.assertGreater(likeness, 0.8)
 
     def test_glass_is_drawn_by_dark_edges_on_white(self):
-        """As the driver lights it: the background is white, edges are dark, and no bump of an atom has a lamp in it as a white dot."""
+        """With the driver's lights the background is white, edges are dark, and no bump mirrors a lamp as a white
+        dot."""
         target = os.path.join(FOLDER, "glass.png")
         file = next(os.path.join(FOLDER, "run", name) for name in sorted(os.listdir(os.path.join(FOLDER, "run"))) if name.endswith(".mns"))
         command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--",
@@ -202,7 +203,7 @@ class Looks(unittest.TestCase):
         values = np.array(image.pixels[:]).reshape(120, 160, 4)[:, :, :3]
         border = np.concatenate([values[0], values[-1], values[:, 0], values[:, -1]])
         self.assertEqual(np.median(border), 1.0)
-        self.assertGreater(border.mean(), 0.99)  # the denoiser since 4.2 changes corners
+        self.assertGreater(border.mean(), 0.99)  # The denoiser of 4.2 and later changes corners.
         if bpy.app.version < (4, 0, 0):
             self.assertEqual([values[row, column].min() for row in (0, -1) for column in (0, -1)], [1.0] * 4)
         light = values.mean(axis=2)
@@ -215,7 +216,7 @@ class Looks(unittest.TestCase):
         self.assertLess(dots, GLASS_DOTS)
 
     def test_glass_mirrors_as_glass_does(self):
-        """A lamp seen only as its mirror image in the glass, 3.4 % of it at a right angle."""
+        """The lamp is seen only as its mirror image in the glass, which shows 3.4 % of it at a right angle."""
         world = bpy.data.worlds.new("bright")
         tree = compat.node_tree(world)
         background = compat.find_or_add(tree, "BACKGROUND", "ShaderNodeBackground")
@@ -231,7 +232,7 @@ class Looks(unittest.TestCase):
         self.assertAlmostEqual(float(picture(samples=64)[4:-4, 4:-4].mean()), once + ((looks.GLASS_BENDS - 1.0) / (looks.GLASS_BENDS + 1.0)) ** 2, delta=0.006)
 
     def test_wax_of_one_colour_has_little_grain(self):
-        """With 16 samples, of two seeds."""
+        """The grain is measured between two seeds with 16 samples each."""
         sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
         sun.rotation_euler = (0.6, 0.3, 0.0)
         bpy.context.scene.collection.objects.link(sun)
@@ -249,7 +250,7 @@ class Looks(unittest.TestCase):
         self.assertLess(grain, WAX_GRAIN)
 
     def test_a_scene_of_the_driver_lets_light_through(self):
-        """It keeps what a look needs: bounces for glass, as many samples as pixels need for wax; others have neither."""
+        """Glass gets its bounces and wax enough samples per pixel; other looks get neither."""
         found = {}
         for look in ("glass", "wax", "paint"):
             target = os.path.join(FOLDER, look + ".blend")
@@ -284,7 +285,7 @@ class Looks(unittest.TestCase):
         self.assertIsNotNone(stack[0].target_material)
 
     def test_outlines_are_as_wide_for_any_scale(self):
-        """LINE_WIDTH Å: in 3.4 thousandths of a unit times a factor of the drawing, from 4.3 on a radius."""
+        """Lines are LINE_WIDTH Å wide: older Blenders count thousandths of a unit times a factor, 4.3 a radius."""
         for scale in (1.0, 0.1, 0.01):
             item = plate(Color=(1.0, 1.0, 1.0))
             item["meniscus_scale"] = scale
@@ -294,7 +295,7 @@ class Looks(unittest.TestCase):
             self.assertAlmostEqual(width / (looks.LINE_WIDTH * scale), 1.0, places=5)
 
     def test_every_look_keeps_what_the_scene_asks(self):
-        """Opacity, that of a film seen at 60 degrees, and a fade: the alpha of a picture before nothing."""
+        """Opacity, the opacity of a film seen at 60 degrees, and a fade set the picture's alpha before nothing."""
         bpy.context.scene.render.film_transparent = True
         bpy.context.scene.render.image_settings.color_mode = "RGBA"
         for look in looks.LOOKS:
@@ -336,7 +337,7 @@ class Looks(unittest.TestCase):
                 bpy.data.objects.remove(item)
 
     def test_looks_of_the_driver_keep_opacity_caps_and_shadows(self):
-        """Through its command line: a tetrahedron of four faces, each a quarter there."""
+        """The driver's command line gets a tetrahedron of four faces whose opacity is a quarter."""
         path, target = (os.path.join(FOLDER, name) for name in ("asked.mns", "asked.png"))
 
         def drive(look, data, *words):
@@ -365,7 +366,7 @@ class Looks(unittest.TestCase):
         self.assertEqual(drive("clay", quarter, "--style", "flat")[0], 2)
 
     def test_a_reload_dresses_what_became_another_kind(self):
-        """Once exported anew with an opacity; what the user made stays."""
+        """A file that is exported anew with opacity gets other materials; the user's own material stays."""
         path = os.path.join(FOLDER, "renewed.mns")
         plain = samples.small_surface(False)
         header, _ = samples.header_of(plain)

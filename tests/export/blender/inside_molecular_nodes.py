@@ -26,7 +26,7 @@ ONE = "/usr/share/freesasa/test-data/1ubq.pdb"
 
 
 def load(path):
-    """The object of a file's molecule, without solvent."""
+    """Returns the object of a file's molecule, without solvent."""
     if hasattr(molecularnodes, "Molecule"):
         return molecularnodes.Molecule.load(path).object
     return molecularnodes.parse(path).create_object(name=os.path.basename(path).split(".")[0], style=None)
@@ -36,16 +36,16 @@ def trajectory(path):
     import MDAnalysis
 
     kind = getattr(molecularnodes.entities, "Trajectory", None)
-    if kind is None:  # of 520: every molecule has frames, which show as the timeline reaches them
+    if kind is None:  # Since 520 every molecule has frames, which show as the timeline reaches them.
         return load(path)
     made = kind(MDAnalysis.Universe(path, path))
-    if "create_object" not in inspect.signature(kind).parameters:  # before 4.5 it did not do so by itself
+    if "create_object" not in inspect.signature(kind).parameters:  # Versions before 4.5 leave it to the caller.
         made.create_object(name="run")
     return made.object
 
 
 def area_of(positions, radii):
-    """In the program's words."""
+    """Returns the area as the program prints it."""
     path = os.path.join(FOLDER, "balls.xyzr")
     with open(path, "w", encoding="ascii") as file:
         for (x, y, z), radius in zip(positions, radii):

@@ -65,7 +65,7 @@ class Prepared(ComputedCase):
         proxy = len(item.data.polygons)
         self.assertEqual(measures(item), wanted(TRIPLE, "--probe", "2")[0])
         self.assertLess(2 * proxy, fine)
-        computed._come_to_rest()  # too early
+        computed._come_to_rest()  # This call comes too early to compute anything.
         self.assertFalse(computed.working().is_busy())
         with unittest.mock.patch.object(motion, "REST", 0.0):
             motion.moves(compat.identity(item))
@@ -76,7 +76,7 @@ class Prepared(ComputedCase):
         computed.wait()
         self.assertGreater(len(item.data.polygons), 2 * proxy)
         self.assertFalse(motion.any_moves())
-        item.meniscus.probe = 1.4  # whose fine mesh is kept
+        item.meniscus.probe = 1.4  # The fine mesh for this probe is kept.
         computed.update_in_background(item, in_motion=True)
         self.assertEqual(len(item.data.polygons), fine)
         item.meniscus.probe = 1.7
@@ -106,7 +106,7 @@ class Prepared(ComputedCase):
         self.assertFalse(motion.is_moving(compat.identity(item)))
 
     def test_solid_views_show_the_colours(self):
-        """But where a user chose others."""
+        """Solid views that show a colour of the user's choice stay."""
         views = [area.spaces.active.shading for window in bpy.context.window_manager.windows for area in window.screen.areas
                  if area.type == "VIEW_3D"]
         if not views:

@@ -88,7 +88,7 @@ class WhileComputing(ComputedCase):
         update()
         self.wanted = faces(alone), measures(alone)
         bpy.data.objects.remove(alone)
-        computed._kept.clear()  # so that it is computed again
+        computed._kept.clear()  # The next update must compute it again.
         bpy.ops.ed.undo_push(message="before")
 
     def start(self):
@@ -119,7 +119,7 @@ class WhileComputing(ComputedCase):
         self.assertEqual(computed.working().is_busy(), False)
 
     def test_join(self):
-        """What was joined is not thrown away by a result of before; a new request is."""
+        """An earlier request's result does not replace the joined mesh; a new request does."""
         self.start()
         bpy.context.view_layer.objects.active = self.item
         for item in (self.item, self.other):
@@ -154,7 +154,7 @@ class WhileComputing(ComputedCase):
         self.check(bpy.data.objects[name])
 
     def test_copies_to_another_scene(self):
-        """Linked there, and copied with its data."""
+        """One scene links the object, and another gets a copy with its data."""
         self.start()
         bpy.data.scenes.new("linked").collection.objects.link(self.item)
         copy = self.item.copy()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scene files of Meniscus in Blender, and all of its colours: everything that a scene says is shown, or named."""
+"""Scene files of Meniscus in Blender, and all of its colours: each entry of a scene is shown, or a message names it."""
 
 import json
 import os
@@ -18,7 +18,7 @@ from meniscus_import import attributes, computed, scene_import  # noqa: E402
 from meniscus_import.computing import preparation_table, request  # noqa: E402
 
 SELECTION = "resi 1-12"
-#: Scenes that the panel has fields for, beside molecule.file, and the options that say the same.
+#: Scenes whose keys, but for molecule.file, are fields of the panel, with the options that say the same.
 OF_PANEL = (
     ({}, []),
     ({"molecule": {"select": SELECTION}, "objects": [{"representation": "surface", "probe": 2.0, "color": "chain", "cavities": "drop"}]},
@@ -31,7 +31,7 @@ OF_PANEL = (
 
 
 def vertices_of_faces(item):
-    """The mean colour of each face of a mesh whose colours blend between vertices."""
+    """Returns the mean colour of each face of a mesh whose colours blend between vertices."""
     return attributes.read(item.data, "Color", "FLOAT_COLOR")[:, :3]
 
 
@@ -51,7 +51,7 @@ class Scenes(ComputedCase):
         return path
 
     def read(self, path):
-        """The new objects, and what is said."""
+        """Imports a scene file and returns the new objects."""
         before = set(bpy.data.objects)
         result = bpy.ops.object.meniscus_from_scene(filepath=path, wait=True)
         self.assertEqual(result, {"FINISHED"})
@@ -79,7 +79,7 @@ class Scenes(ComputedCase):
         self.assertGreater(colors[~red, 1].mean(), 0.2)
 
     def test_what_only_the_program_shows_comes_as_it_exports_it(self):
-        """Cuts, sticks, see-through atoms and the camera, as `export blender --scene` has them."""
+        """Cuts, sticks, transparent atoms and the camera come as `export blender --scene` writes them."""
         path = self.scene(molecule={"select": SELECTION}, camera={"view": "top"}, annotations={"labels": "resi 3=hello"}, objects=[
             {"representation": "surface", "clip": "x<30", "opacity": "resi 3=0.5"}, {"representation": "sticks", "selection": "resi 20-22"}])
         items = self.read(path)
@@ -101,7 +101,7 @@ class Scenes(ComputedCase):
         self.assertTrue(line.endswith("scene: look.preset, legend.shown, annotations.labels"), line)
 
     def test_every_key_of_a_scene_is_taken_or_named(self):
-        """Of the schema that the program gives."""
+        """The schema is the one that the program prints."""
         schema = json.loads(subprocess.run([PROGRAM, "help", "--scene-schema"], check=True, capture_output=True, text=True).stdout)
         of_surface = schema["properties"]["objects"]["items"]["properties"]
         sections = {name: list(value.get("properties", ())) for name, value in schema["properties"].items() if name not in ("meniscus_scene", "objects", "superposed")}
@@ -161,7 +161,7 @@ class Scenes(ComputedCase):
                     continue
             self.assertEqual(done, {"FINISHED"}, scheme)
             self.assertGreater(len(item.data.polygons), 100, scheme)
-        item.meniscus.color, item.meniscus.colors = "own", " ; "  # as if nothing were written
+        item.meniscus.color, item.meniscus.colors = "own", " ; "  # Blank colours act as if the field were empty.
         self.assertEqual(update(), {"FINISHED"})
         item.meniscus.colors = "#ff0000"
         self.assertFalse(request.Request(color=item.meniscus.written_color()).needs_program())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sequences in Blender: every time shows its frame where it belongs, what is missing is never shown, what is the user's stays."""
+"""Sequences in Blender: every time shows its frame in place, missing frames are never shown, the user's data stays."""
 
 import os
 import shutil
@@ -34,7 +34,7 @@ def shown(item):
 
 
 def triangles_shown(item):
-    """Of the object's own mesh at three times."""
+    """Returns how many triangles the object's own mesh has at three times."""
     counts = []
     for time in (1, 2, 3):
         bpy.context.scene.frame_set(time)
@@ -85,7 +85,7 @@ class Sequence(unittest.TestCase):
                 self.assertEqual(len(item.evaluated_get(graph).data.vertices), 0, mode)
 
     def test_timing_of_a_bake_is_that_of_a_stream(self):
-        """Start, speed, what is outside, and a frame by hand, each at whole and broken times."""
+        """Start, speed, times outside of the run and a frame by hand act alike, each at whole and broken times."""
         cases = ({"start": 4.0}, {"speed": 0.5, "outside": "HOLD"}, {"outside": "LOOP"}, {"outside": "PINGPONG", "speed": 0.5})
         for case in cases:
             timing = sequence_reader.Timing(**case)
@@ -109,7 +109,7 @@ class Sequence(unittest.TestCase):
                         np.testing.assert_allclose(shown(item), expected(place), atol=1e-5, err_msg=text)
 
     def test_a_bake_has_a_mesh_of_its_own(self):
-        """Which modifiers behind it and exporters see, with its exact normals."""
+        """Modifiers behind the bake and exporters see its mesh, with its exact normals."""
         item = sequence.bake(MANIFEST)
         counts = [sequence_reader.read(MANIFEST).read(place).objects[0].triangle_count for place in (1, 2, 3)]
         self.assertEqual(triangles_shown(item), counts)
@@ -125,7 +125,7 @@ class Sequence(unittest.TestCase):
             self.assertAlmostEqual(found / count, 0.1, delta=0.02)
 
     def test_a_bake_of_many_frames_shows_each(self):
-        """More than a node group has."""
+        """The bake has more frames than fit into one node group."""
         count = 2 * frame_picker.MOST_OF_A_GROUP + 7
         frames = frame_picker.Frames("many")
         for number in range(count):
@@ -229,7 +229,7 @@ class Sequence(unittest.TestCase):
         mesh.attributes["colour"].data.foreach_set("color", np.repeat(first, 4).astype(np.float32))
         mesh.attributes["marked"].data.foreach_set("value", first % 2 == 1)
         known = set(first)
-        for frame in (2, 3, 5, 1, 3):  # 5: outside of the run, where there is nothing
+        for frame in (2, 3, 5, 1, 3):  # Frame 5 lies outside of the run, where nothing is shown.
             scene.frame_set(frame)
         now = atoms()
         wanted = np.where(np.isin(now, list(known)), now + 7, 0)
@@ -271,7 +271,7 @@ class Sequence(unittest.TestCase):
         sequence._ahead.process.wait(waiting[0])
         self.assertIsNone(waiting[0].error)
         bad = os.path.join(folder, "surface_00005.mns")
-        with open(bad, "r+b") as file:  # after it has been read ahead
+        with open(bad, "r+b") as file:  # The file is cut after it has been read ahead.
             file.truncate(os.path.getsize(bad) - 64)
         scene.frame_set(3)
         item = next(each for each in bpy.data.objects if each.get("meniscus_stream"))
@@ -307,7 +307,7 @@ class Sequence(unittest.TestCase):
                 np.testing.assert_allclose(matrix[:3, 3], (position - manifest.origin) * 0.5, atol=1e-4)
                 forward = (target - position) / np.linalg.norm(target - position)
                 np.testing.assert_allclose(-matrix[:3, 2], forward, atol=1e-5)
-            # Between frames it takes the short way.
+            # The camera takes the short way between frames.
             ends = [np.array(frame.camera["position"]) - manifest.origin for frame in manifest.frames[:2]]
             bpy.context.scene.frame_set(1, subframe=0.5)
             between = np.array(bpy.context.scene.camera.matrix_world)[:3, 3] / 0.5
@@ -369,13 +369,13 @@ class Sequence(unittest.TestCase):
             self.assertIn(word, str(caught.exception))
             self.assertEqual(sorted(each.name for each in bpy.data.objects), before)
         before = len(shown(item))
-        os.remove(manifest)  # the whole run is gone: the last mesh stays
+        os.remove(manifest)  # The whole run is gone, and the last mesh stays.
         bpy.context.scene.frame_set(1)
         self.assertEqual(len(shown(item)), before)
         self.assertIn("surface_sequence.json: no such file", item["meniscus_error"])
 
     def test_places_of_names_are_the_same_in_all_frames(self):
-        """Though each file numbers its own: here the second has other residues than the first."""
+        """Each file numbers its own names; here the second file has other residues than the first."""
         folder = shutil.copytree(RUN, os.path.join(self.folder, "copy"))
         path = os.path.join(folder, "surface_00003.mns")
         with open(path, "rb") as file:

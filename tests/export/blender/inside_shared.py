@@ -23,14 +23,14 @@ KINDS = ("stream", "panel")
 
 
 def told(mesh):
-    """Numbers that tell a mesh from the next frame's."""
+    """Returns numbers that distinguish a mesh from the next frame's."""
     places = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", places)
     return len(mesh.polygons), round(float(np.abs(places).sum()), 1)
 
 
 def shown(layer=None):
-    """What tells each mesh that a view layer shows, instances included."""
+    """Returns those numbers for each mesh that a view layer shows, instances included."""
     layer = layer or bpy.context.view_layer
     layer.update()
     graph = layer.depsgraph
@@ -62,7 +62,7 @@ class Shared(unittest.TestCase):
         return os.path.join(self.folder, *names)
 
     def make(self, kind):
-        """A saved file with a run in it, whose paths are relative; what it shows at three frames."""
+        """Saves a file with a run whose paths are relative, and returns its meshes at three frames."""
         start_anew()
         bpy.ops.wm.save_as_mainfile(filepath=self.library)
         if kind == "panel":
@@ -79,7 +79,7 @@ class Shared(unittest.TestCase):
         return wanted
 
     def load(self, link):
-        """The object, in a new file in another folder."""
+        """Links or appends the object in a new file in another folder."""
         start_anew()
         bpy.ops.wm.save_as_mainfile(filepath=self.shot)
         with bpy.data.libraries.load(self.library, link=link) as (there, found):
@@ -191,7 +191,7 @@ class Shared(unittest.TestCase):
             scene.camera, scene.render.engine, scene.render.resolution_percentage = camera, "CYCLES", 2
             scene.cycles.samples, scene.cycles.use_denoising = 1, False
             bpy.ops.wm.save_as_mainfile(filepath=self.library)
-            gone = self.path("library", "models.pdb" if kind == "panel" else "run/surface_00005.mns")  # frame 3
+            gone = self.path("library", "models.pdb" if kind == "panel" else "run/surface_00005.mns")  # of frame 3
             tools = self.path("tools.py")
             with open(tools, "w", encoding="utf-8") as file:
                 file.write("import addon_utils, bpy\naddon_utils.enable('meniscus_import', default_set=True)\n"
@@ -211,7 +211,7 @@ class Shared(unittest.TestCase):
     def test_duplicates_of_a_stream_at_other_times(self):
         wanted = self.make("stream")
         item = next(each for each in bpy.data.objects if each.get("meniscus_stream"))
-        twin = item.copy()  # with the same mesh
+        twin = item.copy()  # The copy uses the same mesh.
         bpy.context.scene.collection.objects.link(twin)
         twin["meniscus_start"], twin["meniscus_outside"] = 0.0, "HOLD"
         for frame in (2, 1, 3, 2):

@@ -46,7 +46,7 @@ def render(items):
     corners = np.array([item.matrix_world @ mathutils.Vector(corner) for item in items for corner in item.bound_box])
     low, high = corners.min(axis=0), corners.max(axis=0)
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.data.type, camera.data.ortho_scale = "ORTHO", 4 * APART  # a column of the picture for each
+    camera.data.type, camera.data.ortho_scale = "ORTHO", 4 * APART  # The picture has a column for each object.
     camera.location = (*(0.5 * (low + high))[:2], high[2] + 5.0)
     lamp = bpy.data.objects.new("lamp", bpy.data.lights.new("lamp", "SUN"))
     lamp.data.energy, lamp.rotation_euler = 3.0, (0.3, 0.3, 0.0)
@@ -87,7 +87,7 @@ class Shot(ComputedCase):
         first, second, third, fourth = render(items)
         for column in (first, second, third, fourth):
             self.assertGreater((column[:, :, 3] > 0.5).mean(), 0.1)
-        for different in (first, third):  # the linked one stays at frame 1, the copy has a larger probe
+        for different in (first, third):  # The linked object stays at frame 1, and the copy has a larger probe.
             self.assertGreater((np.abs(different - second).max(axis=2) > 0.3).mean(), 0.02)
         self.assertLess((np.abs(second - fourth).max(axis=2) > 0.3).mean(), 0.01)
 

@@ -23,7 +23,7 @@ from meniscus_import import compat, materials, mesh_arrays, mns_reader, storyboa
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 SIZE = (240, 180)
 LOOK = ["--size", "%dx%d" % SIZE, "--samples", "1", "--select", "resi 1-30", "--device", "cpu", "-q"]
-#: A look from another side, of another colour, cut, without perspective.
+#: Looks from another side, in another colour, with a cut, or without perspective.
 SCENES = {
     "one": ["--color", "element", "--background", "white"],
     "side": ["--color", "element", "--background", "white", "--view", "x"],
@@ -32,10 +32,10 @@ SCENES = {
     "flat": ["--color", "#3060c0", "--background", "#406080", "--view", "y", "--clip", "depth>0.5", "--projection", "orthographic"],
 }
 SCENES["all"], SCENES["half"] = (["--color", "#3060c0", "--view", "x", "--silhouettes", "0", *more] for more in ((), ("--show", "resi 1-15")))
-SCENES["tele"] = SCENES["side"]  # by a lens of a third of the angle, from three times as far
+SCENES["tele"] = SCENES["side"]  # A lens of a third of the angle sees it from three times as far.
 FILM = ["--fps", "10", "--hold", "0.4", "--device", "cpu", "-q"]
 HELD, BETWEEN = 4, 7
-#: What a camera may be off, in pixels of a picture of 1,080 rows.
+#: Largest error of a camera in pixels of a picture of 1,080 rows.
 LIMIT = 1.5
 
 
@@ -58,7 +58,7 @@ def scene_file(name):
 
 
 def tele_camera(molecule):
-    """Writes the camera of "side" with a third of its angle, and from so far that the molecule is as large."""
+    """Writes the camera of "side" with a third of its angle, so far away that the molecule looks as large."""
     path = os.path.join(FOLDER, "story_tele_camera.json")
     run("render", molecule, "-o", os.path.join(FOLDER, "story_tele_side.png"), "--save-camera", path, *LOOK, *SCENES["side"])
     with open(path, encoding="utf-8") as file:
@@ -72,7 +72,7 @@ def tele_camera(molecule):
 
 
 def written(names, *options, to="blender"):
-    """The folder with the film of these scenes."""
+    """Exports the film of these scenes and returns its folder."""
     folder = os.path.join(FOLDER, "_".join((to, *names, *(option.strip("-") for option in options))))
     if not os.path.exists(folder):
         time = [] if "--transition" in options else ["--transition", "0.7"]
@@ -81,7 +81,7 @@ def written(names, *options, to="blender"):
 
 
 class FilmCameras:
-    """Those of the film for POV-Ray, which has each written out: where points are in its pictures."""
+    """Cameras of the film for POV-Ray, which writes each one out: they place points in its pictures."""
 
     def __init__(self, folder, names):
         with open(os.path.join(folder, "surface.pov"), encoding="utf-8") as file:
@@ -103,7 +103,8 @@ class FilmCameras:
         return [float(re.search(r"Meniscus_%s = ([-\d.e]+)" % name, self.text).group(1))] * len(self.places)
 
     def seen(self, frame, points, first_camera):
-        """Shares of the picture's width and height from its middle. first_camera: its place in Å; POV-Ray's scene is moved."""
+        """Returns shares of the picture's size from its middle. first_camera: its place in Å, which gives the scene's
+        shift."""
         place = self.places[frame - 1]
         right, up, forward, eye = (axis[place] for axis in self.axes)
         ways = points - (np.array(first_camera) - self.axes[3][self.places[0]]) - eye
@@ -118,7 +119,7 @@ def read_story(folder):
 
 
 def pixels(path):
-    """(rows from the bottom, columns, 4), as Blender reads a picture."""
+    """Reads a picture as Blender does, (rows from the bottom, columns, 4)."""
     image = bpy.data.images.load(path)
     values = np.array(image.pixels[:]).reshape(image.size[1], image.size[0], 4)
     bpy.data.images.remove(image)
@@ -140,7 +141,7 @@ class Storyboard(unittest.TestCase):
         return storyboard.import_file(os.path.join(written(names, *options), "story.json"), **others)
 
     def compare_cameras(self, names, *options):
-        """The largest distance in pixels of a picture of 1,080 rows."""
+        """Returns the largest distance in pixels of a picture of 1,080 rows."""
         made = self.imported(names, *options)
         cameras = FilmCameras(written(names, *options, to="povray"), names)
         first = read_story(written(names, *options))["scenes"][0]["camera"]["position"]
@@ -176,7 +177,7 @@ class Storyboard(unittest.TestCase):
         self.assertEqual([point.co[0] for point in held[0].keyframe_points], [HELD, HELD + BETWEEN + 1, 2 * HELD + BETWEEN, 2 * (HELD + BETWEEN) + 1])
 
     def test_objects_fade_at_the_pace_of_the_film(self):
-        """What only one of two scenes shows; at the start, in the middle and at the end; what both show stays."""
+        """Objects of only one of two scenes fade from start to end, and objects of both stay."""
         names = ("side", "one", "cut")
         for options, share in ((), lambda time: time * time * (3 - 2 * time)), (("--ease", "even"), lambda time: time):
             bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -192,7 +193,7 @@ class Storyboard(unittest.TestCase):
                 self.assertTrue(any(node.type == "GROUP" and node.node_tree.name == materials.FADE for node in item.data.materials[0].node_tree.nodes))
 
     def test_the_background_is_that_of_the_film(self):
-        """In linear light; a cut changes it at once, and without one pictures have none."""
+        """Backgrounds are blended in linear light; a cut changes them at once, and a clear one stays clear."""
         def color():
             node = bpy.context.scene.world.node_tree.nodes["Seen"]
             return np.array(node.inputs["Color"].default_value[:3])
@@ -246,7 +247,7 @@ class Storyboard(unittest.TestCase):
         self.assertEqual([len(store) for store in stores], before)
 
     def test_text_of_files_stays_text(self):
-        """A title is the name of a marker, whatever it holds."""
+        """A title is the name of a marker, whichever characters it holds."""
         title = "'); import os; os.abort() #"
         path = os.path.join(FOLDER, "story_titled.json")
         scene_file("side")
@@ -285,7 +286,8 @@ class Storyboard(unittest.TestCase):
         self.assertLess(np.abs(middle).max(), 1.0)
 
     def test_a_picture_between_two_scenes_is_the_blend_of_both(self):
-        """By Cycles, in the middle of a transition that takes half of the residues away: it covers what the film's picture does."""
+        """Cycles renders the middle of a transition that takes half of the residues away; it covers the film's
+        pixels."""
         names = ("all", "half")
         made = self.imported(names)
         frame = HELD + (BETWEEN + 1) // 2

@@ -9,7 +9,7 @@ import tomllib
 import unittest
 
 ADDON, VERSION = sys.argv[1:3]
-LONGEST = 64  # letters of what is shown in one line
+LONGEST = 64  # letters that fit into one line of Blender's list
 
 
 class Manifest(unittest.TestCase):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Computations beside Blender, under plain Python: the newest request wins, and what computes is a process of its own."""
+"""Computations in a process of their own, under plain Python: the newest request wins while Blender goes on."""
 
 import os
 import sys
@@ -29,7 +29,7 @@ class Jobs(unittest.TestCase):
             return task.key
 
         self.worker.submit(jobs.Task("a", 0, work))
-        while self.worker._waiting:  # until it runs
+        while self.worker._waiting:  # Waits until the task runs.
             time.sleep(0.001)
         for key in range(1, 6):
             self.worker.submit(jobs.Task("later", key, work, 1))
@@ -51,7 +51,7 @@ class Jobs(unittest.TestCase):
                 running.append(task.owner)
                 most = max(most, len(running))
             if task.key == 0:
-                both.wait(10)  # breaks if they are not done at the same time
+                both.wait(10)  # The barrier breaks unless both tasks run at the same time.
             time.sleep(0.01)
             with lock:
                 running.remove(task.owner)
@@ -115,12 +115,12 @@ class OtherProcess(WithFolder):
         return job.result
 
     def slow(self):
-        """A process whose program sleeps and tells its own number."""
+        """Returns a process whose program sleeps and writes its own process number."""
         path = os.path.join(self.folder, "slow")
         with open(path, "w", encoding="ascii") as file:
             file.write(f"#!/bin/sh\necho $$ >{self.folder}/pid\nexec sleep 60\n")
         os.chmod(path, 0o755)
-        made = process.Process(self.folder, path, self.folder)  # without the library, which reads files itself
+        made = process.Process(self.folder, path, self.folder)  # The library would read the file itself.
         self.addCleanup(made.end)
         return made
 
@@ -161,7 +161,7 @@ class OtherProcess(WithFolder):
         np.testing.assert_array_equal(found["middle"], [4.5, 0, 0])
 
     def test_what_is_newer_comes_instead_of_what_waited(self):
-        about = [self.about(probe=probe) for probe in np.linspace(1.0, 2.0, 30)]  # each writes the molecule's file, which the other reads
+        about = [self.about(probe=probe) for probe in np.linspace(1.0, 2.0, 30)]  # Each writes the molecule's file, which the other reads.
         asked = [self.process.submit("a", each["request"]["probe"], "surface", each) for each in about]
         self.process.wait(asked[-1])
         self.assertFalse(self.process.is_busy())

@@ -9,7 +9,7 @@ import numpy as np
 
 
 def usd_mesh(path, _fps):
-    """frame -> corners a face, corners, positions."""
+    """Returns {frame: (corners per face, corners, positions)}."""
     from pxr import Usd, UsdGeom
 
     stage = Usd.Stage.Open(path)
@@ -18,7 +18,7 @@ def usd_mesh(path, _fps):
     def at(frame):
         return [found.Get(frame) for found in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr(), mesh.GetPointsAttr())]
 
-    at.file = stage  # which closes when it goes
+    at.file = stage  # The stage closes when nothing holds it.
     return at
 
 

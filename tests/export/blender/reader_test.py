@@ -12,7 +12,7 @@ import unittest
 
 PROGRAM, ADDON = sys.argv[1], sys.argv[2]
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # without Blender
+package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # The add-on is loaded without Blender.
 package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 
 import numpy as np  # noqa: E402
@@ -48,7 +48,7 @@ class Reader(unittest.TestCase):
         return subprocess.run([PROGRAM, *words, "--device", "cpu", "--force"], capture_output=True, text=True, check=False)
 
     def residues(self, name, *options):
-        """The first of a .mns file of five residues of ubiquitin."""
+        """Returns the only surface of a .mns file of five residues of ubiquitin."""
         target = os.path.join(self.folder.name, name + ".mns")
         done = self.run_program("export", "blender", samples.UBIQUITIN, "--select", "resi 1-5", "--tolerance", "0.2", "-o", target, *options)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -67,7 +67,7 @@ class Reader(unittest.TestCase):
         place = surface["mesh.position"].astype(np.float64) + surface.header["mesh"]["origin"]
         there = np.stack([rows[axis] for axis in "xyz"], axis=1).astype(np.float64)
         nearest = np.concatenate([((part[:, None] - there) ** 2).sum(axis=2).argmin(axis=1) for part in np.array_split(place, 20)])
-        same = np.linalg.norm(place - there[nearest], axis=1) < 1e-4  # others were welded
+        same = np.linalg.norm(place - there[nearest], axis=1) < 1e-4  # Other vertices were welded.
         self.assertGreater(same.mean(), 0.95)
         atom = np.full(len(place), len(surface["atom.radius"]))
         np.minimum.at(atom, surface["mesh.triangle"].ravel(), np.repeat(surface["mesh.atom"], 3))
@@ -78,12 +78,12 @@ class Reader(unittest.TestCase):
         found |= {name: surface[f"atom.{array}"][atom] for name, array in of_atoms.items()}
         for name, values in found.items():
             wanted = rows[name][nearest[same]]
-            known = np.isfinite(wanted)  # a .mns file has 0 where there is none
+            known = np.isfinite(wanted)  # A .mns file has 0 for an unknown value.
             close = np.isclose(values[same][known], wanted[known], rtol=1e-4, atol=1e-4)
-            # What is averaged sees a mesh that was welded.
+            # Averages differ a little on a mesh whose vertices were welded.
             self.assertGreater(close.mean(), 0.9 if name.startswith("smooth") else 0.999, name)
             self.assertGreater(known.mean(), 0.99, name)
-        # A vertex has one of its patches alone, a triangle its own. Pieces too small for a triangle are missing.
+        # A vertex has one of its patches, a triangle has its own. Pieces too small for a triangle are missing.
         self.assertLess(np.abs(np.unique(rows["patch_area"])[:, None] - surface["mesh.patch_area"]).min(axis=1).max(), 1e-4)
         pieces = set(zip(surface["mesh.kind"].tolist(), surface["mesh.patch"].tolist(), surface["mesh.patch_area"].tolist()))
         self.assertAlmostEqual(sum(area for *_, area in pieces) / surface.header["area"], 1.0, delta=0.005)
@@ -118,7 +118,7 @@ class Reader(unittest.TestCase):
         self.assertIsNone(mns_reader.read(self.files["triple"]).objects[0].get("atom.name_id"))
 
     def test_names_of_a_foreign_file_stay_data(self):
-        """Quotes, backslashes and what Python would run."""
+        """Quotes, backslashes and Python code in names are only data."""
         source, target = (os.path.join(self.folder.name, name) for name in ("foreign.pdb", "foreign.mns"))
         with open(source, "w", encoding="ascii") as file:
             for number, (name, residue) in enumerate((("'\"\\n", "'+x"), ("{0}%", "\"\"\"")), 1):
@@ -186,7 +186,7 @@ class Reader(unittest.TestCase):
         self.assertEqual(kinds["cage"], ["outer", "cavity"])
 
     def test_caps_close_what_is_cut(self):
-        """Half of a shell around a cavity, which is open in the cap; and a slab of a ring's three atoms."""
+        """One case is half of a shell around a cavity that is open in the cap, the other a slab of a ring of atoms."""
         cases = {"cage": (["z<0.3"], 2), "triple": (["y<2.0", "y>0.5"], 4)}
         for name, (planes, borders) in cases.items():
             whole = mns_reader.read(self.files[name]).objects[0]
@@ -212,7 +212,7 @@ class Reader(unittest.TestCase):
             volume = samples.signed_volume(surface["mesh.position"], surface["mesh.triangle"])
             self.assertAlmostEqual(volume / surface.header["mesh"]["volume"], 1.0, places=5)
             self.assertTrue(0.2 * whole.header["volume"] < volume < 0.9 * whole.header["volume"])
-            # The rim: edges between cap and surface.
+            # The rim consists of the edges between cap and surface.
             t = surface["mesh.triangle"]
             edges = {}
             for triangle, is_cap in zip(t, cap):
@@ -296,7 +296,7 @@ class Reader(unittest.TestCase):
             path = os.path.join(self.folder.name, "bad.mns")
             with open(path, "wb") as file:
                 file.write(data)
-            if name == "not_closed":  # the reader takes it; the import refuses it
+            if name == "not_closed":  # The reader accepts it, and the import refuses it.
                 self.assertFalse(mns_reader.is_closed(mns_reader.read(path).objects[0]["mesh.triangle"]))
                 continue
             with self.assertRaises(mns_reader.MnsError, msg=name) as caught:

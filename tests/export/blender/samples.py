@@ -11,7 +11,7 @@ import zlib
 
 import numpy as np
 
-#: A ring, two drops with tips, every kind of patch, and a shell around a cavity (an icosahedron of carbon).
+#: A ring, two drops with tips, every kind of patch, and a shell of carbon around a cavity (an icosahedron).
 MOLECULES = {
     "pair": [(0, 0, 0, 1.7), (4.0, 0, 0, 1.7)],
     "drops": [(0, 0, 0, 1.7), (5.8, 0, 0, 1.7)],
@@ -32,7 +32,7 @@ MOLECULES["cage"] = icosahedron(4.2)
 
 
 def export(program, folder, name, *options):
-    """The path of a fresh .mns file of one of the molecules, within 0.01 Å unless options say otherwise."""
+    """Returns the path of a fresh .mns file of a molecule, within 0.01 Å unless options say otherwise."""
     source = os.path.join(folder, name + ".xyzr")
     with open(source, "w", encoding="ascii") as file:
         for atom in MOLECULES[name]:
@@ -45,16 +45,16 @@ def export(program, folder, name, *options):
     return target
 
 
-#: Ubiquitin in solution, ten models.
+#: Ubiquitin in solution, in ten models.
 UBIQUITIN = "/usr/share/freesasa/test-data/1d3z.pdb"
-#: The lines of a PDB file that make two copies of chain A, 20 Å apart along x.
+#: Lines of a PDB file that make two copies of chain A, 20 Å apart along x.
 TWO_COPIES = "REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n" + "".join(
     "REMARK 350   BIOMT%d %3d %9.6f %9.6f %9.6f %14.5f\n" % (row + 1, copy, *(float(column == row) for column in range(3)), shift if row == 0 else 0)
     for copy, shift in ((1, 0), (2, 20)) for row in range(3))
 
 
 def export_run(program, target, frames="1-5:2", *options):
-    """Fifteen residues of ubiquitin in solution, ten models; by default the frames 1, 3, 5, 25 a second."""
+    """Exports fifteen residues of ubiquitin in ten models; by default frames 1, 3 and 5 at 25 a second."""
     subprocess.run([program, "export", "blender", UBIQUITIN, "--select", "resi 1-15",
                     "--frames", frames, "--fps", "25", "-o", target, "--device", "cpu", "--color", "residue",
                     "--size", "120x90", "--tolerance", "0.05", "-q", *options], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
@@ -68,13 +68,13 @@ def with_right_checksum(data):
 
 
 def header_of(data):
-    """The header and its length in bytes."""
+    """Returns the header and its length in bytes."""
     size = struct.unpack_from("<Q", data, 16)[0]
     return json.loads(bytes(data[64:64 + size])), size
 
 
 def with_header(data, header, version=2):
-    """The file with another header. Offsets of arrays count from the header's end, so they stay right."""
+    """Returns the file with another header. Offsets of arrays count from the header's end, so they stay right."""
     _, size = header_of(data)
     text = json.dumps(header).encode("ascii")
     text = text.ljust((len(text) + 64) // 64 * 64 - 1) + b"\n"
@@ -85,14 +85,14 @@ def with_header(data, header, version=2):
 
 
 def plain(data):
-    """The file as version 2 has it: packed arrays (FORMAT.md) are unpacked."""
+    """Returns the file in version 2, with packed arrays (FORMAT.md) unpacked."""
     def unpacked(entry, content, size):
         return zlib.decompress(content[:entry.pop("bytes")]) if "bytes" in entry else content[:size]
     return with_arrays(data, unpacked, 2)
 
 
 def packed(data):
-    """The file of version 2 with its arrays packed, as version 4 has them."""
+    """Returns a file of version 2 in version 4, with packed arrays."""
     def made(entry, content, size):
         stream = zlib.compress(content[:size])
         entry["bytes"] = len(stream)
@@ -101,7 +101,8 @@ def packed(data):
 
 
 def with_arrays(data, change, version):
-    """The file with other bytes of arrays: change(entry of the header, bytes from the first one on, size of the values) returns them."""
+    """Returns the file with other bytes in its arrays, by change(header's entry, bytes from the first, size of
+    values)."""
     header, size = header_of(data)
     body = b""
     for entry in header["arrays"]:
@@ -113,7 +114,7 @@ def with_arrays(data, change, version):
 
 
 def as_version_1(data):
-    """As the first release wrote it: one object, whose keys and arrays are the file's own."""
+    """Returns the file in the first release's version: one object, whose keys and arrays are the file's own."""
     data = plain(data)
     header, _ = header_of(data)
     first = header.pop("objects")[0]
@@ -127,7 +128,7 @@ def as_version_1(data):
 
 
 def seen_through(data, opacities, film):
-    """The file with an opacity for each atom."""
+    """Returns the file with an opacity for each atom."""
     data = plain(data)
     header, size = header_of(data)
     values = struct.pack(f"<{len(opacities)}f", *opacities)
@@ -143,7 +144,7 @@ QUARTER_TURN = [0, -1, 0, 10, 1, 0, 0, 20, 0, 0, 1, 30]
 
 
 def as_two_objects(data):
-    """The molecule as "A" in two places, the second by QUARTER_TURN, and once more as "B"."""
+    """Returns a file with the molecule as "A" in two places, the second by QUARTER_TURN, and once more as "B"."""
     header, _ = header_of(data)
     first = header["objects"][0]
     identity = first["copies"][0]
@@ -152,7 +153,7 @@ def as_two_objects(data):
 
 
 def bad_copies(data):
-    """name -> bytes whose copies no one should show."""
+    """Returns {name: bytes} of files whose copies must not be shown."""
     result = {}
     for name, copies in (("none", []), ("short", [[1, 2, 3]]), ("mirror", [[-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]]),
                          ("scaled", [[2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0]]), ("text", [["a"] * 12])):
@@ -169,7 +170,7 @@ def array_place(data, name):
 
 
 def patched(data, name, kind, value, row=0):
-    """The file with one number changed and its checksum made right."""
+    """Returns the file with one number changed and its checksum made right."""
     data = bytearray(plain(data))
     place, _ = array_place(data, name)
     struct.pack_into("<" + kind, data, place + row * struct.calcsize(kind), value)
@@ -177,20 +178,20 @@ def patched(data, name, kind, value, row=0):
 
 
 def overwritten(data, name, content):
-    """The file with other first bytes of an array as it is stored, and with the right checksum."""
+    """Returns the file with other first bytes of a stored array, and with the right checksum."""
     place, _ = array_place(data, name)
     return with_right_checksum(data[:place] + content + data[place + len(content):])
 
 
 def with_entry(data, name, key, value):
-    """The file with another value in the entry of an array."""
+    """Returns the file with another value in the entry of an array."""
     header, _ = header_of(data)
     next(entry for entry in header["arrays"] if entry["name"] == "0/" + name)[key] = value
     return with_header(data, header, 4)
 
 
 def damaged_files(data):
-    """name -> (bytes, a word the error must contain)."""
+    """Returns {name: (bytes, a word that the error must contain)}."""
     stored, data = data, plain(data)
     newer = bytearray(data)
     struct.pack_into("<I", newer, 8, 99)
@@ -224,17 +225,17 @@ def damaged_files(data):
         "wrong_count": (with_right_checksum(re.sub(rb'("vertices": )\d', rb"\g<1>9", data)), "disagree"),
     }
 
-#: A camera as in a header.
+#: A camera in the form of a header.
 CAMERA = {"position": [0, 0, 9], "target": [0, 0, 0], "up": [0, 1, 0], "projection": "perspective", "vertical_fov": 30, "size": [64, 48]}
 LEFT_OUT = object()
-#: What takes the place of a value; "deep" is nested beyond any stack.
+#: Values that replace a header's value; "deep" is nested beyond any stack.
 ODD_VALUES = [None, True, 0, -1, 1.5, 2**31, 2**32, 2**63, 10**30, 10**400, -0.0, 1e308, float("nan"), float("inf"), "",
               "nan", "\u0000", "\ud800", [], {}, [[]], [1, 2], [1e200] * 12, [0] * 3, ["a"] * 3, ["1"] * 3, ["\ud800"], [10**400] * 3, [[0] * 12],
               [[0] * 24], [[float("nan")] * 12], [{}], "<i4", "<f4", "|u1"]
 
 
 def small_surface(is_cut):
-    """A tetrahedron of one atom as a whole file, whose header has every key that the add-on reads; with velocities, or cut with a cap."""
+    """Returns the file of a tetrahedron of one atom with every key that the add-on reads; with velocities or a cap."""
     arrays = {
         "mesh.position": np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], "<f4"),
         "mesh.normal": np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], "<f4"),
@@ -269,7 +270,7 @@ def small_surface(is_cut):
 
 
 def places_in(value, place=()):
-    """The paths to all values of a tree of dicts and lists but its root."""
+    """Returns the paths to all values of a tree of dicts and lists but its root."""
     for key, inner in value.items() if isinstance(value, dict) else enumerate(value):
         yield place + (key,)
         if isinstance(inner, (dict, list)):
@@ -277,7 +278,7 @@ def places_in(value, place=()):
 
 
 def odd_headers(data):
-    """Pairs of words and a file: each value of a header but the list of arrays left out, or replaced by each odd value."""
+    """Yields words and a file in which one value of the header, but for the arrays, is left out or odd."""
     header, _ = header_of(data)
     for place in places_in({key: value for key, value in header.items() if key != "arrays"}):
         for odd in [LEFT_OUT, *ODD_VALUES]:
@@ -293,14 +294,14 @@ def odd_headers(data):
 
 
 def signed_volume(positions, triangles):
-    """Å³; positive when the triangles face outwards."""
+    """Returns the volume in Å³; it is positive when the triangles face outwards."""
     p = positions.astype(np.float64)
     a, b, c = (p[triangles[:, k]] for k in range(3))
     return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
 
 
 def corner_normals(mesh):
-    """The normals that Blender will shade a mesh of its own with, (corners, 3)."""
+    """Returns the normals by which Blender shades a mesh with custom normals, (corners, 3)."""
     normals = np.empty(3 * len(mesh.loops), dtype=np.float32)
     if hasattr(mesh, "calc_normals_split"):
         mesh.calc_normals_split()

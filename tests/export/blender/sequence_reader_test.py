@@ -11,7 +11,7 @@ import unittest
 
 PROGRAM, ADDON = sys.argv[1], sys.argv[2]
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # without Blender
+package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # The add-on is loaded without Blender.
 package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 
 import numpy as np  # noqa: E402
@@ -41,7 +41,7 @@ class SequenceReader(unittest.TestCase):
         self.assertFalse(found.camera_moves)
 
     def test_cameras_of_files(self):
-        """Those that --save-camera writes; others are refused with what is wrong."""
+        """Cameras of --save-camera are read; other files are refused with a reason."""
         path = os.path.join(self.folder.name, "camera.json")
         picture = os.path.join(self.folder.name, "a.png")
         for projection in ("perspective", "orthographic"):
@@ -108,12 +108,12 @@ class SequenceReader(unittest.TestCase):
         found = sequence_reader.read(os.path.join(turning, "surface_sequence.json"))
         self.assertTrue(found.camera_moves)
         self.assertEqual(len({tuple(frame.camera["position"]) for frame in found.frames}), 3)
-        self.assertEqual(found.run, sequence_reader.read(self.manifest).run)  # its frames may be used with either camera
+        self.assertEqual(found.run, sequence_reader.read(self.manifest).run)  # Both cameras suit its frames.
         for place, frame in enumerate(found.frames, 1):
             self.assertEqual(found.read(place).header["camera"], frame.camera)
 
     def test_points_of_contact_move_with_their_atom(self):
-        """Convex points between the atoms' places in the neighbouring frames of the run, per frame of the scene."""
+        """Convex points move with their atom between the neighbouring frames of the run, per frame of the scene."""
         every = os.path.join(self.folder.name, "every")
         samples.export_run(PROGRAM, every, "0-9")
         all_frames = sequence_reader.read(os.path.join(every, "surface_sequence.json"))
@@ -197,7 +197,7 @@ class Compat(unittest.TestCase):
             def new_socket(self, name, in_out, socket_type):
                 self.made.append((name, in_out, socket_type))
 
-        class NewTree:  # 4.0 and later
+        class NewTree:  # Blender 4.0 and later
             interface = Interface()
 
         compat.add_geometry_sockets(NewTree)

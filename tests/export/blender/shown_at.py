@@ -9,7 +9,7 @@ import numpy as np
 
 
 def state(item, times):
-    """Arrays by words that name them and the time."""
+    """Returns arrays by words that name them and the time."""
     found = {}
     for time in times:
         whole = int(float(time) // 1)

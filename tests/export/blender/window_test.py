@@ -22,7 +22,7 @@ MOLECULE = "/usr/share/freesasa/test-data/1ubq.pdb"
 MODELS = "/usr/share/freesasa/test-data/1d3z.pdb"
 SELECTION = "resi 1-20"
 PICTURES = ("computed", "dragged", "undone", "recoloured", "playing", "saved", "reopened")
-#: Of 255, between pixels that show the same.
+#: Largest difference of a channel, of 255, between pixels that show the same.
 SAME = 12
 
 
@@ -43,14 +43,14 @@ class VirtualScreen:
 
 
 def areas(molecule, *options):
-    """Å², of each frame."""
+    """Returns the area of each frame in Å²."""
     said = subprocess.run([PROGRAM, "surface", molecule, "--select", SELECTION, *options, "--json", "-q", "--device", "cpu"], check=True,
                           capture_output=True, text=True).stdout
     return [json.loads(line)["area"] for line in said.splitlines()] if "--frames" in options else [json.loads(said)["area"]]
 
 
 def pixels(path, view):
-    """Of the part of a screenshot that shows objects: (rows, columns, 3), 0 to 255."""
+    """Returns the part of a screenshot that shows objects, (rows, columns, 3), 0 to 255."""
     left, bottom, right, top = view
     values = np.asarray(OpenImageIO.ImageInput.open(path).read_image(OpenImageIO.UINT8), dtype=int)
     height = len(values)
@@ -58,12 +58,12 @@ def pixels(path, view):
 
 
 def shown(picture):
-    """Which pixels show an object: the background is grey, and the same in every row."""
+    """Returns which pixels show an object: the background is grey and the same in every row."""
     return np.abs(picture - picture[:, :1]).max(axis=2) > SAME
 
 
 def colorfulness(picture):
-    """Mean difference of the channels of what shows."""
+    """Returns the mean difference of the channels where an object shows."""
     seen = picture[shown(picture)]
     return float((seen.max(axis=1) - seen.min(axis=1)).mean())
 
@@ -96,7 +96,7 @@ class Window(unittest.TestCase):
 
     @staticmethod
     def blender(display, scripts, *words):
-        """What it said."""
+        """Runs Blender in a virtual screen and returns its output."""
         done = subprocess.run([BLENDER, "--factory-startup", "--window-geometry", "0", "0", *SIZE, *words],
                               env={**os.environ, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": scripts,
                                    "MESA_SHADER_CACHE_DISABLE": "true", "PYTHONDONTWRITEBYTECODE": "1"},
@@ -106,7 +106,7 @@ class Window(unittest.TestCase):
         return done.stdout[-3000:]
 
     def share_that_differs(self, one, other):
-        """Of the pixels that show an object in either picture."""
+        """Returns the share of differing pixels among those that show an object in either picture."""
         one, other = self.seen[one], self.seen[other]
         either = shown(one) | shown(other)
         self.assertGreater(either.sum(), 20000)
@@ -117,7 +117,7 @@ class Window(unittest.TestCase):
         self.assertEqual(self.found["dragged"], *areas(MOLECULE, "--probe", "2"))
         self.assertEqual(self.found["undone"], self.found["first"])
         self.assertGreater(self.found["shown_while_dragging"], 0)
-        self.assertEqual(self.found["threads"], 1)  # of Python: Blender crashes at times while others run
+        self.assertEqual(self.found["threads"], 1)  # threads of Python: Blender crashes at times while others run
         self.assertEqual(self.found["drawn"], ["VIEW3D_PT_meniscus", "VIEW3D_PT_meniscus_look", "VIEW3D_PT_meniscus_molecule", "VIEW3D_PT_meniscus_time"])
         self.assertGreater(self.share_that_differs("computed", "dragged"), 0.1)
         self.assertEqual(self.share_that_differs("computed", "undone"), 0.0)
@@ -129,7 +129,7 @@ class Window(unittest.TestCase):
     def test_other_colours_on_the_same_surface(self):
         self.assertEqual(self.found["recoloured"], self.found["first"])
         before, after = (shown(self.seen[name]) for name in ("undone", "recoloured"))
-        self.assertGreater((before & after).sum() / (before | after).sum(), 0.9)  # dark parts are hard to tell from the background
+        self.assertGreater((before & after).sum() / (before | after).sum(), 0.9)  # Dark parts hardly differ from the background.
         self.assertGreater(self.share_that_differs("undone", "recoloured"), 0.5)
         self.assertGreater(colorfulness(self.seen["recoloured"]), 1.5 * colorfulness(self.seen["undone"]))
 
@@ -140,13 +140,13 @@ class Window(unittest.TestCase):
         self.assertEqual({frame for frame, _ in self.found["played"]}, set(range(1, len(wanted) + 1)))
         for frame, area in self.found["played"]:
             self.assertAlmostEqual(area / wanted[frame - 1], 1.0, places=6, msg=f"frame {frame}")
-        self.assertGreater(self.share_that_differs("playing", "saved"), 0.1)  # the first frame
+        self.assertGreater(self.share_that_differs("playing", "saved"), 0.1)  # "playing" shows the first frame.
 
     def test_a_run_is_baked_while_the_window_goes_on(self):
         self.assertEqual((self.found["baking"], self.found["baked"]), (["RUNNING_MODAL"], ["Frame"]))
 
     def test_a_file_opens_without_the_add_on(self):
-        self.assertLess(self.share_that_differs("saved", "reopened"), 0.005)  # edges are smoothed a little otherwise
+        self.assertLess(self.share_that_differs("saved", "reopened"), 0.005)  # Edges are smoothed a little differently.
 
 
 if __name__ == "__main__":

@@ -20,14 +20,14 @@ except ImportError as missing:
 
 PROGRAM = sys.argv.pop(1)
 SIZE = (400, 300)
-# Not in a plane, and apart in every picture below; each with a colour of its own.
+# The atoms lie in no plane and stay apart in every picture below; each has a colour of its own.
 ATOMS = [(0.0, 0.0, 0.0), (9.0, 1.0, 2.0), (-2.0, 8.0, -3.0), (3.0, -4.0, 9.0)]
 COLORS = ["red", "green", "blue", "yellow"]
 SEEN = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0)]
 
 
 def pictured():
-    """Where PyMOL draws the atoms: the middles of their colours in its picture, column and row."""
+    """Returns the columns and rows where PyMOL draws the atoms, as the middles of their colours in its picture."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "pymol.png"
         cmd.png(str(path), width=SIZE[0], height=SIZE[1], ray=1, quiet=1)
@@ -41,7 +41,7 @@ def pictured():
 
 
 def projected(camera):
-    """Where a camera of ours has the atoms."""
+    """Returns the columns and rows where our camera has the atoms."""
     position = numpy.array(camera["position"])
     forward = numpy.array(camera["target"]) - position
     forward /= numpy.linalg.norm(forward)
@@ -79,13 +79,13 @@ class PyMOLCamera(unittest.TestCase):
         cmd.set("orthoscopic", 0)
         cmd.set("field_of_view", 20)
         cmd.reset()
-        cmd.zoom("all", 5)  # no atom is cut off by the picture's edge
+        cmd.zoom("all", 5)  # The picture's edge cuts no atom off.
 
     def path(self, name):
         return pathlib.Path(self.folder.name) / name
 
     def camera(self, view, *options):
-        """The camera that the program makes of a view: as saved beside a picture."""
+        """Returns the camera that the program saves with a picture of a view."""
         self.path("view.txt").write_text(view)
         subprocess.run([PROGRAM, "render", self.molecule, "-o", self.path("a.png"), "--force", "--samples", "1", "--size",
                         f"{SIZE[0]}x{SIZE[1]}", "--camera", self.path("view.txt"), "--save-camera", self.path("c.json"),
@@ -97,7 +97,7 @@ class PyMOLCamera(unittest.TestCase):
         self.assertLess(apart, 0.7, (projected(camera), pictured()))
 
     def test_puts_atoms_where_pymol_does(self):
-        # From the side, shifted and near: perspective counts.
+        # The camera looks from the side, shifted and near, so that perspective counts.
         cmd.turn("x", 33)
         cmd.turn("y", -58)
         cmd.turn("z", 17)

@@ -17,7 +17,7 @@ BUNDLE = pathlib.Path(sys.argv.pop(1))
 
 
 class Atoms:
-    """Like chimerax.atomic.Atoms, as far as it is used."""
+    """Stands for chimerax.atomic.Atoms with the few properties that the bundle uses."""
 
     def __init__(self, structures, xyz, radii, colors, in_chains):
         self.structures, self.coords, self.radii, self.colors, self.in_chains = structures, xyz, radii, colors, in_chains

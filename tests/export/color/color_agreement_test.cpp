@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One molecule in the ray caster's, POV-Ray's and Blender's picture: the same colours, the same hidden parts, the same
-// copies, pixel by pixel.
+// The ray caster's, POV-Ray's and Blender's pictures of a molecule agree in colours, hidden parts and copies, pixel by
+// pixel.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -27,18 +27,18 @@ namespace {
 
 constexpr int kWidth = 280, kHeight = 210;
 constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
-// Both pictures hold linear light in at least 16 bits, an error of 2e-5; sRGB is at most 13 times as steep.
+// Both pictures hold linear light in at least 16 bits, with an error of 2e-5; sRGB is at most 13 times as steep.
 constexpr float kPovrayTolerance = 1e-3f;
 // Blender keeps colours of corners as bytes of sRGB.
 constexpr float kBlenderTolerance = 0.5f / 255.0f + 5e-4f;
 
-/// What one renderer shows at each pixel's centre, without light.
+/// Hits and colours without light that one renderer shows at each pixel's centre.
 struct FlatPicture {
   std::vector<bool> hit;
   std::vector<glm::vec3> color;  ///< sRGB
 };
 
-/// Light is linear in the albedo, so the pictures in black and in white tell the albedo of the one in colour.
+/// Casts a picture whose albedo follows from pictures in black, white and colour, for light is linear in the albedo.
 FlatPicture cast(const std::vector<SurfaceObject>& objects, const Camera& camera) {
   static EglContext context;
   GlRenderer renderer;
@@ -120,12 +120,12 @@ FlatPicture blender(const std::vector<SurfaceObject>& objects, const Camera& cam
 }
 
 struct Difference {
-  std::size_t compared = 0;  ///< pixels of the same colour as all eight around them: away from borders
-  std::size_t color = 0;     ///< of these, another colour
-  std::size_t hit = 0;       ///< of all, hit in one and missed in the other
+  std::size_t compared = 0;  ///< pixels away from borders: all eight around have their colour
+  std::size_t color = 0;     ///< compared pixels of another colour
+  std::size_t hit = 0;       ///< pixels of the picture hit in one and missed in the other
 };
 
-/// shift: how many pixels to the side the other picture is taken from, to see the comparison fail.
+/// Compares with the other picture, taken `shift` pixels to the side so that the comparison can fail.
 Difference compare(const FlatPicture& cast, const FlatPicture& other, float tolerance, int shift = 0) {
   Difference difference;
   for (int y = 1; y + 1 < kHeight; ++y) {
@@ -158,12 +158,12 @@ void expect_agreement(const std::vector<SurfaceObject>& objects, const Camera& c
               << shifted.color << " and " << shifted.hit << "\n";
     EXPECT_GT(d.compared, kPixels / 40) << name;
     EXPECT_LE(d.color, d.compared / 2000) << name;
-    EXPECT_LE(d.hit, kPixels / 1000) << name;  // silhouettes: a mesh lies inside of the surface by its tolerance
+    EXPECT_LE(d.hit, kPixels / 1000) << name;  // A mesh's silhouette lies inside of the surface by its tolerance.
     EXPECT_GT(shifted.hit, 20 * (d.hit + 5)) << name;
   }
 }
 
-/// Chains A and C of 1TII: two colours by chain, hundreds by B-factor.
+/// Chains A and C of 1TII have two colours by chain and hundreds by B-factor.
 Structure two_chains() {
   Structure structure = read_structure("/usr/share/pymol/data/demo/1tii.pdb");
   std::erase_if(structure.atoms, [](const Atom& atom) { return atom.chain != "A" && atom.chain != "C"; });
@@ -193,7 +193,7 @@ TEST(ColorAgreement, HiddenAtomsAreHiddenEverywhereAlike) {
   const Structure structure = two_chains();
   for (const char* scheme : {"residue", "kind"}) {
     std::vector<SurfaceObject> objects{object_of(structure, scheme)};
-    // Whole residues, many of them: most patches are cut, and the inside shows through every gap.
+    // Many whole residues are hidden: most patches are cut, and the inside shows through every gap.
     for (const Atom& atom : structure.atoms) objects[0].coloring.hidden.push_back(atom.residue_number % 3 == 0);
     expect_agreement(objects, camera_for(objects), std::string("hidden, ") + scheme);
   }

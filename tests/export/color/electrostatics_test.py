@@ -28,7 +28,7 @@ def run(words, folder):
 
 
 def vertices_of(path):
-    """Positions and map values of a binary PLY file."""
+    """Returns positions and map values of a binary PLY file."""
     data = path.read_bytes()
     head, body = data.split(b"end_header\n", 1)
     lines = head.decode().splitlines()
@@ -55,7 +55,7 @@ class Electrostatics(unittest.TestCase):
             for words in commands:
                 said = run([PROGRAM] + words[1:] if words[0] == "meniscus" else words, folder)
                 if words[0] == "meniscus":
-                    # All that the map was computed of is in the surface, which the map holds.
+                    # The surface holds all atoms that the map was computed from, and the map covers the surface.
                     self.assertNotIn("warning", said)
             pixels = OpenImageIO.ImageInput.open(str(folder / "potential.png")).read_image("float")[..., :3]
             molecule = pixels[:, : pixels.shape[1] * 3 // 4]
@@ -83,7 +83,7 @@ class Electrostatics(unittest.TestCase):
             self.assertLess(numpy.median(means["GLU"] + means["ASP"]), -1.0)
 
     def check_pixels(self, folder, recipe):
-        """Colours of a picture without light are those that numpy looks up in the map where each pixel's ray ends."""
+        """Checks a picture without light against colours that numpy looks up in the map at the end of each ray."""
         words = [PROGRAM, *recipe[1:], "--preset", "flat", "--silhouettes", "0", "--aovs", "--samples", "1", "--size", "160x120", "-q"]
         words = [w for w in words if w not in ("--legend", "--background", "white")]
         words[words.index("potential.png")] = "flat.exr"
@@ -105,7 +105,7 @@ class Electrostatics(unittest.TestCase):
 
     @staticmethod
     def looked_up(path, points):
-        """Trilinear values of an OpenDX map."""
+        """Returns trilinear values of an OpenDX map."""
         counts = origin = None
         steps, numbers = [], []
         for line in path.read_text().splitlines():
@@ -129,7 +129,7 @@ class Electrostatics(unittest.TestCase):
         return value
 
     def check_that_waters_are_missed(self, folder, commands):
-        """The recipe as it was once, whose waters have charges."""
+        """Checks that an earlier recipe, whose waters have charges, is noticed."""
         words = [word for word in commands[0] if word not in ("--drop-water", "1ubq.pqr") and "--apbs" not in word]
         run(words + ["water.pqr"], folder)
         small = ["--force", "--size", "320x240"]

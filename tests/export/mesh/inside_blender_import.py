@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inside Blender: imports b.stl, b.obj, b.ply and b.glb of the folder given, and prints what came of each as JSON."""
+"""Inside Blender: imports b.stl, b.obj, b.ply and b.glb of a folder, and prints the resulting meshes as JSON."""
 
 import json
 import pathlib
@@ -30,7 +30,7 @@ for ending, importer in importers.items():
         layer = mesh.color_attributes[0]
         colors = [0.0] * (4 * len(layer.data))
         layer.data.foreach_get("color_srgb", colors)
-        if layer.domain == "CORNER":  # each vertex once
+        if layer.domain == "CORNER":  # Colours of corners are read once for each vertex.
             loops = {loop.vertex_index: n for n, loop in enumerate(mesh.loops)}
             rows = [colors[4 * n:4 * n + 3] for n in loops.values()]
         else:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inside Blender, newer than Debian's: imports USD files of PROGRAM, and finds frame by frame the triangles, the area, the box
-and the colours of PLY files; likewise in Alembic that Blender makes of one; copies share a mesh and a material with its
+"""Inside Blender, newer than Debian's: imports USD files of PROGRAM and compares triangles, area, box and colours frame
+by frame with PLY files, also in Alembic that Blender makes of one; copies share a mesh and a material with its
 colours."""
 
 import pathlib
@@ -45,7 +45,7 @@ class Usd(unittest.TestCase):
         return item
 
     def check_frames(self, item):
-        """What is shown at each time of the scene is what the PLY file of that frame has, upright."""
+        """Checks that the object shows the PLY file of each frame at its time of the scene, upright."""
         for frame in range(5):
             bpy.context.scene.frame_set(frame + 1)
             shown = item.evaluated_get(bpy.context.evaluated_depsgraph_get())
@@ -95,7 +95,7 @@ class Usd(unittest.TestCase):
             x, y, z = places[:, :3, 3].T
             wanted = np.array(sorted(np.stack([x, -z, y], axis=1).tolist()))
             np.testing.assert_allclose(found, wanted, atol=1e-4, err_msg=ending)
-            if ending == "usda" and bpy.app.version >= (4, 5):  # 4.2 knows no such primvar
+            if ending == "usda" and bpy.app.version >= (4, 5):  # Blender 4.2 does not read this primvar.
                 tree = mesh.materials[0].node_tree
                 link, = (each for each in tree.links if each.to_socket.name == "Base Color")
                 self.assertEqual(link.from_node.attribute_name, "displayColor")

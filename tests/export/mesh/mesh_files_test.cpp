@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What files of meshes hold, before and after they are written: colours, normals, numbers, points inside.
+// Files of meshes before and after they are written: colours, normals, numbers, points inside.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,7 +59,7 @@ Coloring gray(const Surface& surface) {
   return coloring;
 }
 
-/// The rows of vertices of a binary PLY file: normals and colours.
+/// Normal and colour of a vertex in a binary PLY file.
 struct PlyVertex {
   glm::vec3 normal;
   std::array<std::uint8_t, 3> color;
@@ -97,7 +97,7 @@ TEST(MeshFiles, PlyNormalsAtCuspsAreTheMeanOfThoseAround) {
   Coloring gray_atoms;
   gray_atoms.atom.assign(balls.size(), glm::vec3(0.5f));
   const std::vector<PlyVertex> vertices = ply_vertices(surface, mesh, gray_atoms);
-  std::size_t bent = 0;  // where the mean is not one of those around
+  std::size_t bent = 0;  // sharp vertices, whose normals do not cancel out
   for (const auto& [vertex, normals] : sum) {
     if (glm::length(normals) < 1e-6) continue;
     EXPECT_LT(glm::distance(glm::dvec3(vertices[vertex].normal), glm::normalize(normals)), 1e-6) << vertex;
@@ -111,7 +111,7 @@ TEST(MeshFiles, PlyColorsAreRoundedToTheNearestByte) {
   const Surface surface = compute_surface_cpu(balls, kWater);
   const TriangleMesh mesh = tessellate(surface, {0.2, true});
   Coloring coloring;
-  coloring.atom = {glm::vec3(0.5f, 0.999f, 0.2f)};  // 127.5, 254.7, 51
+  coloring.atom = {glm::vec3(0.5f, 0.999f, 0.2f)};  // as bytes 127.5, 254.7, 51
   for (const PlyVertex& vertex : ply_vertices(surface, mesh, coloring))
     ASSERT_EQ(vertex.color, (std::array<std::uint8_t, 3>{128, 255, 51}));
 }
@@ -164,7 +164,7 @@ TEST(Curvature, OfASphereAFixedProbeAndATorus) {
     EXPECT_DOUBLE_EQ(curvature(three, f, {0, 0, 1}).mean, -1.0 / kWater);
     EXPECT_DOUBLE_EQ(curvature(three, f, {0, 0, 1}).gaussian, 1.0 / (kWater * kWater));
   }
-  // Halfway between two atoms the tube faces the axis: at the distance R - p.
+  // Halfway between two atoms the tube faces the axis at the distance R - p.
   const Surface two = compute_surface_cpu(two_atoms(3.0), kWater);
   const double waist = two.toroidal[0].radius - kWater;
   for (std::uint32_t f = 0; f < two.faces.size(); ++f) {
@@ -175,7 +175,7 @@ TEST(Curvature, OfASphereAFixedProbeAndATorus) {
   }
 }
 
-// Averages of a constant are the constant, whatever the triangles.
+// Averages of a constant are the constant for any triangles.
 TEST(Curvature, SmoothedOnASphereIsThatOfTheSphere) {
   const Surface ball = compute_surface_cpu(Balls{{{0, 0, 0}, 3.0}}, kWater);
   for (const Curvature& at : smoothed_curvatures(tessellate(ball, {0.005, true}))) {
@@ -184,8 +184,8 @@ TEST(Curvature, SmoothedOnASphereIsThatOfTheSphere) {
   }
 }
 
-// A row of atoms is a rod with waists: in the mean over some of them its mean curvature is about that of a cylinder,
-// its Gaussian curvature about none.
+// A row of atoms is a rod with waists: averaged over some of them, its mean curvature is about that of a cylinder and
+// its Gaussian curvature about 0.
 TEST(Curvature, SmoothedLooksPastTheAtoms) {
   const Surface rod = compute_surface_cpu(collinear(16, 1.5), kWater);
   const TriangleMesh mesh = tessellate(rod, {0.02, true});
@@ -223,14 +223,14 @@ TEST(MeshFiles, TheSkyIsSeenFromOutsideAndNotFromCavities) {
     const bool is_cavity = surface.components[component].kind == ComponentKind::cavity;
     const float seen = numbers(object, "open_sky")[v];
     (is_cavity ? inside : outside) = std::max<double>(is_cavity ? inside : outside, seen);
-    EXPECT_GT(numbers(object, "atom_open_sky")[v], 0.1f);  // of its outer part and its inner one
+    EXPECT_GT(numbers(object, "atom_open_sky")[v], 0.1f);  // An atom's value covers its outer part and its inner one.
     EXPECT_LT(numbers(object, "atom_open_sky")[v], 0.95f);
   }
   EXPECT_EQ(inside, 0.0);
   EXPECT_GT(outside, 0.9);
 }
 
-// A fullerene's cage: one point in the hollow, one in its wall.
+// A fullerene's cage has one point in its hollow and one in its wall.
 TEST(MeshFiles, InnerPointsLieInCavitiesAndSolids) {
   for (const double radius : {1.0, 1.7}) {
     const Surface surface = compute_surface_cpu(c60(1.45, radius), radius == 1.0 ? 0.8 : kWater);
@@ -249,7 +249,7 @@ TEST(MeshFiles, InnerPointsLieInCavitiesAndSolids) {
   }
 }
 
-/// Does a ray from a point leave a component of a mesh? It meets the triangles an odd number of times.
+/// Returns whether a ray from the point leaves the component: it meets the triangles an odd number of times.
 bool is_inside(const TriangleMesh& mesh, std::uint32_t component, const glm::dvec3& point) {
   const glm::dvec3 ray = glm::normalize(glm::dvec3(0.6123, 0.3517, 0.7081));
   bool inside = false;
@@ -265,7 +265,7 @@ bool is_inside(const TriangleMesh& mesh, std::uint32_t component, const glm::dve
   return inside;
 }
 
-// Triangles of a proxy leave out places that are inside the surface, small cavities nearly all of them.
+// Triangles of a proxy leave out places inside the surface, and nearly all of a small cavity.
 TEST(MeshFiles, InnerPointsLieInsideCoarseTriangles) {
   const Surface surface = compute_surface_cpu(enterotoxin(), kWater);
   for (const double density : {0.03, 0.1, 0.3}) {

@@ -21,7 +21,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-MOLECULE = "/usr/share/freesasa/test-data/1ubq.pdb"  # two cavities
+MOLECULE = "/usr/share/freesasa/test-data/1ubq.pdb"  # a molecule with two cavities
 ENSEMBLE = "/usr/share/freesasa/test-data/1d3z.pdb"
 PROGRAM = None
 BLENDER = None
@@ -36,7 +36,7 @@ def export(path, *words, code=0):
 
 
 def read_ply(path):
-    """Vertices as a structured array, triangles."""
+    """Returns vertices, as a structured array, and triangles."""
     data = path.read_bytes()
     end = data.index(b"end_header\n") + len(b"end_header\n")
     header = data[:end].decode().splitlines()
@@ -106,7 +106,7 @@ def read_vtp(path):
 
 
 def usd_rows(text, name):
-    """The values of an attribute of the only mesh, or those of each frame."""
+    """Returns the values of an attribute of the only mesh, in a run for each frame."""
     found = re.search(rf"\[\] {name} = (\[.*?\])", text) or re.search(rf"\[\] {name}\.timeSamples = {{(.*?)}}", text, re.S)
     rows = re.findall(r"\[(.*?)\]", found[1])
     columns = rows[0].count(",", 0, rows[0].find(")")) + 1 if rows[0].startswith("(") else 1
@@ -114,8 +114,8 @@ def usd_rows(text, name):
 
 
 def write_capsid(path, molecule=MOLECULE):
-    """A molecule as an assembly of three copies: where it is, turned by 90° about z, and turned by 120° about the diagonal.
-    Returns their matrices."""
+    """Writes a molecule as an assembly of three copies: in its own place, turned by 90° about z, and turned by 120°
+    about the diagonal. Returns their matrices."""
     places = np.array([np.eye(4)] * 3)
     places[1][:3] = [[0, -1, 0, 60], [1, 0, 0, -5], [0, 0, 1, 0]]
     places[2][:3] = [[0, 0, 1, -70.5], [1, 0, 0, 0], [0, 1, 0, 12]]
@@ -163,7 +163,7 @@ class Contents(Case):
             self.assertGreater(np.linalg.norm(np.cross(b - a, c - a), axis=1).min(), 0)
 
     def test_welding_takes_what_three_decimals_cannot_tell(self):
-        """At a tolerance where there is something to weld, and is said to be."""
+        """At this tolerance some vertices must be welded, and the program reports them."""
         done = export(self.folder / "fine.stl", MOLECULE, "--tolerance", "0.02", "--device", "cpu")
         self.assertIn("welded: ", done.stderr)
         rows = np.frombuffer((self.folder / "fine.stl").read_bytes()[84:],
@@ -226,7 +226,7 @@ class Contents(Case):
         np.testing.assert_allclose(255 * srgb, self.vertices["red"], atol=0.1)
 
     def test_usd(self):
-        """As text and in an archive; of a run one file, in which each frame has what its PLY file has."""
+        """Text and archive are equal; a run is one file, whose frames have the values of their PLY files."""
         text = self.export("a.usda", MOLECULE, *WORDS, *EXTRA, "--scale", "0.1").read_text()
         self.assertIn('metersPerUnit = 1\n    upAxis = "Y"\n', text)
         points, = usd_rows(text, "points")
@@ -305,7 +305,7 @@ class Contents(Case):
         self.assertEqual((text.count("instanceable"), text.count("matrix4d xformOp:transform = ")), (3, 3))
 
     def test_copies_that_differ_are_meshes_of_their_own(self):
-        """Of colours by place, numbers of the whole, and formats without instances."""
+        """Colours by place, numbers of the whole, and formats without instances make copies differ."""
         write_capsid(self.folder / "capsid.pdb")
         words = (str(self.folder / "capsid.pdb"), "--tolerance", "0.1", "--device", "cpu", "-q", *COPIES)
         (self.folder / "x.dx").write_text(
@@ -324,7 +324,7 @@ class Contents(Case):
         opaque = self.export("look.usda").read_text()
         self.assertTrue("rel material:binding = </molecule/looks/surface>" in opaque)
         self.assertTrue('string inputs:varname = "displayColor"' in opaque)
-        self.assertEqual(opaque.count("pacity"), 1)  # of the look of glass
+        self.assertEqual(opaque.count("pacity"), 1)  # opacity of the glass look
         self.assertEqual(re.findall(r'^        "(\w+)" \{$', opaque, re.M), ["figure", "matte", "plastic", "metal", "glass"])
         scene = {"meniscus_scene": 1, "look": {"shininess": 14, "specular": 0.25}}
         (self.folder / "look.json").write_text(json.dumps(scene))
@@ -332,7 +332,7 @@ class Contents(Case):
         text = self.export("look.usda", *words).read_text()
         self.assertTrue("rel material:binding = </molecule/looks/translucent>" in text)
         self.assertTrue("float inputs:roughness = 0.595" in text)  # the fourth root of 2 / (14 + 2)
-        self.assertTrue("float inputs:ior = 3\n" in text)  # reflects a quarter
+        self.assertTrue("float inputs:ior = 3\n" in text)  # An index of 3 reflects a quarter.
         of_residue = np.where(self.vertices["res_id"] <= 20, 0.25, 1.0)
         np.testing.assert_allclose(usd_rows(text, "primvars:displayOpacity")[0][:, 0], of_residue)
         scene, array = read_glb(self.export("look.glb", *words))
@@ -372,7 +372,7 @@ class Contents(Case):
             self.assertAlmostEqual(math.hypot(*map(float, line.split()[8:11])), 1, delta=0.002)
 
     def test_objects(self):
-        """Outer surface and cavities by themselves, in one file or in one each; the bodies of 3MF are outward."""
+        """Outer surface and cavities are separate, in one file or in one each; the bodies of 3MF are outward."""
         words = (MOLECULE, *WORDS, "--by", "component")
         scene, array = read_glb(self.export("parts.glb", *words))
         names = [mesh["name"] for mesh in scene["meshes"]]
@@ -411,7 +411,7 @@ class Contents(Case):
         self.assertLess(len(read_ply(path)[1]), 0.8 * len(self.triangles))
 
     def test_a_camera_makes_near_things_finer(self):
-        """Half a pixel where each point is, told as such, and none needed."""
+        """Without --tolerance the mesh is within half a pixel at each point, and the program says so."""
         camera = self.folder / "near.json"
         middle = self.positions.mean(axis=0)
         camera.write_text(json.dumps({"position": [float(middle[0]), float(middle[1]), float(middle[2] + 40)],
@@ -509,7 +509,7 @@ class Meshio(Case):
                 self.assertEqual(len(mesh.points), len(self.vertices))
                 triangles = mesh.cells_dict["triangle"]
                 self.assertEqual(open_edges(triangles), 0)
-                # of vertices with colours it makes points of six dimensions
+                # meshio makes points of six dimensions from vertices with colours.
                 self.assertAlmostEqual(volume_of(mesh.points[:, :3], triangles), self.volume, delta=0.01)
 
 
@@ -550,7 +550,7 @@ print("FOUND", cmd.get_names(), [list(map(list, cmd.get_extent(name))) for name 
         np.testing.assert_allclose(extents[0], [self.positions.min(axis=0), self.positions.max(axis=0)], atol=1e-3)
 
     def corners(self, *words):
-        """What a script loads: of each corner its color, normal and position, each behind its sign."""
+        """Returns the corners that a script loads: color, normal and position of each, each behind its sign."""
         from pymol import cmd
         with mock.patch.object(cmd, "load_cgo") as load_cgo:
             exec(self.export("whole.py", MOLECULE, *words).read_text(), {})
@@ -562,7 +562,7 @@ print("FOUND", cmd.get_names(), [list(map(list, cmd.get_extent(name))) for name 
         rows = self.corners(*WORDS)
         np.testing.assert_allclose(rows[:, :, 9:], self.positions[self.triangles], atol=1e-6)
         of_corners = np.stack([self.vertices[c] for c in ("red", "green", "blue")], axis=1)[self.triangles]
-        inside = (of_corners == of_corners[:, :1]).all(axis=(1, 2))  # elsewhere those of corners blend
+        inside = (of_corners == of_corners[:, :1]).all(axis=(1, 2))  # Elsewhere the colors of corners blend.
         self.assertLess(0.2, inside.mean())
         np.testing.assert_allclose(rows[inside][:, :, 1:4], of_corners[inside] / 255, atol=1e-6)
         self.assertTrue((rows[:, :, 1:4] == rows[:, :1, 1:4]).all())

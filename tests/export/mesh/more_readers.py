@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""more_readers.py PROGRAM: what PrusaSlicer, VTK and Khronos' glTF validator (a module of node in NODE_PATH) say of mesh
-files; one line for each file, and at the end "cases N failures M"."""
+"""more_readers.py PROGRAM: mesh files in PrusaSlicer, VTK and Khronos' glTF validator (a module of node in NODE_PATH);
+one line for each file, and at the end "cases N failures M"."""
 
 import json
 import pathlib

@@ -29,12 +29,12 @@ def complaints(path):
 
 
 def meshes_of(stage):
-    """Those of instances each for itself."""
+    """Returns all meshes of a stage, with a separate one for each instance."""
     return [UsdGeom.Mesh(prim) for prim in stage.Traverse(Usd.TraverseInstanceProxies()) if prim.IsA(UsdGeom.Mesh)]
 
 
 def material_faults(mesh, **wanted):
-    """Of the material that the mesh is drawn with; wanted: its numbers."""
+    """Returns faults of the material that the mesh is drawn with; wanted: its numbers."""
     material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
     if not material:
         return [f"{mesh.GetPath()}: no material"]
@@ -53,7 +53,7 @@ def encoded(light):
 
 
 def differences(meshes, time, vertices, triangles, scale):
-    """Of all meshes together and a PLY file."""
+    """Returns differences between all meshes together and a PLY file."""
     points, faces, colors, normals, faults = [], [], [], [], []
     for mesh in meshes:
         own = np.array(mesh.GetPointsAttr().Get(time))
@@ -97,12 +97,12 @@ def still_faults(folder, ending):
     if [mesh.GetPrim().GetName() for mesh in meshes] != [f"chain_{c}" for c in "DEFGHAC"]:
         faults.append(f"names {[mesh.GetPrim().GetName() for mesh in meshes]}")
     for mesh in meshes:
-        faults += material_faults(mesh, roughness=(2 / 62) ** 0.25)  # of the highlight of the usual look
+        faults += material_faults(mesh, roughness=(2 / 62) ** 0.25)  # roughness of the usual look's highlight
     return faults + differences(meshes, Usd.TimeCode.Default(), *read_ply(folder / "still.ply"), 0.1)
 
 
 def copies_faults(folder, ending):
-    """As they are, and in the scene of a shot that chooses another look."""
+    """Returns faults of a file of copies, and of a shot's scene that refers to it and chooses another look."""
     places = write_capsid(folder / "capsid.pdb")
     export(folder / f"copies.{ending}", str(folder / "capsid.pdb"), *COPIES, *STILL[1:], "--opacity", "resid 1-20=0.3", "--force")
     shot = Usd.Stage.CreateNew(str(folder / f"shot_{ending}.usda"))
@@ -132,7 +132,7 @@ def copies_faults(folder, ending):
 
 
 def run_faults(folder, ending):
-    """All frames; between them the velocities lead from one towards the next."""
+    """Returns faults of a run's frames, and of velocities that lead from one frame towards the next."""
     export(folder / "run_#.ply", *RUN, "--force")
     export(folder / f"run.{ending}", *RUN)
     stage = Usd.Stage.Open(str(folder / f"run.{ending}"))
@@ -147,7 +147,7 @@ def run_faults(folder, ending):
     velocities = np.array(mesh.GetVelocitiesAttr().Get(1))
     if len(velocities) != len(mesh.GetPointsAttr().Get(1)) or not 0 < np.linalg.norm(velocities, axis=1).mean() < 10 * FPS:
         faults.append("velocities")
-    # OpenUSD's own use of them, half a frame on.
+    # OpenUSD itself applies the velocities for half a frame.
     moved = np.array(mesh.ComputePointsAtTime(1.5, 1))
     if not np.allclose(moved, np.array(mesh.GetPointsAttr().Get(1)) + 0.5 / FPS * velocities, atol=1e-4):
         faults.append("points in between")

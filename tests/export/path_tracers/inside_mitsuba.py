@@ -39,7 +39,7 @@ class InMitsuba(unittest.TestCase):
         return folder / "surface.xml"
 
     def ours(self, molecule, *options):
-        """Colours (linear), coverage and depth along the view of the ray through the middle of each pixel."""
+        """Returns linear colours, coverage, normals and positions of the ray caster at the middle of each pixel."""
         path = self.folder / "ours.exr"
         self.run_program("render", molecule, "-o", path, "--size", f"{WIDTH}x{HEIGHT}", "-q", "--aovs", "--samples", 1,
                          "--preset", "classic", "--ambient", 1, "--specular", 0, "--force", *options)
@@ -51,7 +51,7 @@ class InMitsuba(unittest.TestCase):
         return np.stack([channel[c] for c in "RGB"], 2), channel["A"] > 0.5, normals, positions
 
     def theirs(self, path):
-        """The same of a scene, position relative to its origin."""
+        """Returns these arrays of a scene in Mitsuba, with positions relative to its origin."""
         scene = mi.load_file(str(path))
         sensor = scene.sensors()[0]
         colors, normals, positions = (np.zeros((HEIGHT, WIDTH, 3)) for _ in range(3))
@@ -74,7 +74,7 @@ class InMitsuba(unittest.TestCase):
             mi.util.write_bitmap(str(path), mi.TensorXf(image.astype(np.float32)), write_async=False)
 
     def compare(self, name, molecule, *options, tolerance=0.005, covered_limit=0.0005, color_limit=0.002):
-        """Both of a scene with a mesh within the tolerance (Å; None: half a pixel), with the same options."""
+        """Compares both pictures, with a mesh within the tolerance (Å; None: half a pixel) and the same options."""
         mesh = [] if tolerance is None else ["--tolerance", tolerance]
         ours = self.ours(molecule, *options)
         path = self.scene(molecule, *options, *mesh, name=name)
@@ -95,7 +95,7 @@ class InMitsuba(unittest.TestCase):
         self.assertLess(colors, color_limit)
         if tolerance is not None:
             self.assertLess(np.percentile(turned, 99), 3)
-            self.assertLess(np.percentile(off, 99), 10 * tolerance)  # where the view grazes the surface
+            self.assertLess(np.percentile(off, 99), 10 * tolerance)  # The view grazes the surface in places.
         return path
 
     def test_surface_by_perspective(self):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""pbrt_reader_test.py PROGRAM READER: the crate pbrt4 reads of our scenes what our own grammar reads; the last line says
-"cases N failures M"."""
+"""pbrt_reader_test.py PROGRAM READER: the crate pbrt4 and our own grammar read the same statements in our scenes; the
+last line says "cases N failures M"."""
 
 import pathlib
 import re

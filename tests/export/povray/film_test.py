@@ -15,16 +15,16 @@ import OpenImageIO
 PROGRAM, POVRAY = sys.argv[1:3]
 MOLECULES = pathlib.Path("/usr/share/freesasa/test-data")
 UBIQUITIN, ENSEMBLE = "1ubq.pdb", "1d3z.pdb"  # the second has ten models, which are frames
-#: Of 255: a pixel differs if a channel does by more.
+#: Largest difference of a channel, of 255, between equal pixels.
 LIMIT = 8
-# Without light, which POV-Ray makes another way, and a ray through each pixel.
+# Light, which POV-Ray computes in another way, is left out, and a ray goes through each pixel.
 LOOK = ["--size", "240x180", "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples", "1", "--background", "white", "-q",
         "--device", "cpu", "--select", "resi 1-30"]
 FILM = ["--fps", "4", "--ease", "even", "--device", "cpu"]
 
 
 def pixels(path):
-    """8 bit sRGB: (rows, columns, 3)."""
+    """Returns 8-bit sRGB, (rows, columns, 3)."""
     image = OpenImageIO.ImageInput.open(str(path))
     values = np.asarray(image.read_image("uint8")).astype(int)[:, :, :3]
     image.close()
@@ -54,13 +54,13 @@ class PovrayFilm(unittest.TestCase):
         return f"{name}.json"
 
     def written(self, *words):
-        """The folder with the scene, and what was said."""
+        """Exports a film and returns the scene's folder and the messages."""
         done = self.run_program(PROGRAM, "film", *words, *FILM, "--to", "povray", "-o", "story")
         self.assertEqual(done.stdout, "cd 'story' && povray surface.ini && povray surface_story.ini\n")
         return self.folder / "story", done.stderr
 
     def films(self, *words):
-        """Ours and POV-Ray's pictures."""
+        """Returns the pictures of the ray caster and of POV-Ray."""
         self.run_program(PROGRAM, "film", *words, *FILM, "-o", "ours_##.png")
         folder, _ = self.written(*words)
         for ini in ("surface.ini", "surface_story.ini"):
@@ -109,7 +109,7 @@ class PovrayFilm(unittest.TestCase):
         self.assertGreater(share_of_differing(theirs[0], theirs[3]), 0.1)
 
     def test_only_what_differs_is_rendered(self):
-        """Where nothing dissolves a picture of the film is one of POV-Ray's, and a scene that is held is rendered once."""
+        """Where nothing dissolves, a picture of the film is one of POV-Ray's, and a held scene is rendered once."""
         words = [self.scene("one", "--color", "element"), self.scene("two", "--color", "element", "--view", "x", "--probe", "1.8")]
         folder, _ = self.written(*words, "--hold", "2", "--transition", "1")
         self.assertEqual(len(list(folder.glob("surface_geometry_*.inc"))), 1 + 4 + 1)

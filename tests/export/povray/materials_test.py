@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Glass, wax, highlights and layers of POV-Ray's pictures against what optics and the ray caster say: PROGRAM POVRAY."""
+"""Glass, wax, highlights and layers of POV-Ray's pictures against optics and the ray caster: PROGRAM POVRAY."""
 
 import math
 import os
@@ -19,7 +19,7 @@ WIDTH, HEIGHT = 240, 180
 
 
 def linear_pixels(path):
-    """(rows, columns, 3), linear, of a picture of 16 bits."""
+    """Returns linear colours of a picture of 16 bits, (rows, columns, 3)."""
     image = OpenImageIO.ImageInput.open(path)
     values = np.asarray(image.read_image("uint16")).astype(float)[:, :, :3] / 65535
     image.close()
@@ -37,7 +37,7 @@ class Materials(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
 
     def export(self, atoms, *options):
-        """A scene of balls (x, y, z, radius)."""
+        """Exports a scene of balls (x, y, z, radius)."""
         path = os.path.join(self.holder.name, "balls.xyzr")
         with open(path, "w", encoding="ascii") as file:
             file.writelines(" ".join(map(str, atom)) + "\n" for atom in atoms)
@@ -45,7 +45,7 @@ class Materials(unittest.TestCase):
                          "--projection", "orthographic", *options)
 
     def render(self, declared, *options):
-        """The scene's picture, linear, after what is declared in front of it."""
+        """Returns the scene's linear picture with declarations in front of it."""
         with open(os.path.join(self.folder, "own.pov"), "w", encoding="ascii") as file:
             file.write(f'#version 3.7;\nglobal_settings {{ assumed_gamma 1 max_trace_level 30 }}\n'
                        f'#declare Meniscus_Custom_Settings = 1;\n{declared}\n#include "surface.pov"\n')
@@ -54,14 +54,14 @@ class Materials(unittest.TestCase):
         return linear_pixels(os.path.join(self.folder, "own.png"))
 
     def middle_row(self, picture):
-        """Distances of its pixels from the middle in Å, and their values."""
+        """Returns distances of the middle row's pixels from the middle in Å, and their values."""
         with open(os.path.join(self.folder, "surface.pov"), encoding="utf-8") as file:
             width = float(re.search(r"Meniscus_Picture_Width = ([0-9.e+-]+);", file.read()).group(1))
         places = ((np.arange(WIDTH) + 0.5) / WIDTH - 0.5) * width
         return places, 0.5 * (picture[HEIGHT // 2 - 1] + picture[HEIGHT // 2])
 
     def test_glass_bends_light_as_snell_says(self):
-        """Behind one ball each ray comes out in another direction, which the sky's colour tells."""
+        """Each ray leaves a ball in another direction, which the sky's colour shows."""
         self.export([(0, 0, 0, RADIUS)])
         sky = ("#declare Meniscus_Material = 2; #declare Meniscus_Finish = finish { ambient 0 diffuse 0 }\n"
                "#declare Meniscus_Absorbs = rgb 0; #declare Meniscus_Tint = 0; #declare Meniscus_Background = rgb 0;\n"
@@ -79,7 +79,7 @@ class Materials(unittest.TestCase):
         turned = 2 * (np.arcsin(sines) - np.arcsin(sines / IOR))
         expected = 0.5 - 0.5 * np.sin(turned)
         self.assertLess(np.abs(values[inside, 0] - expected).max(), 0.004)
-        self.assertGreater(np.ptp(expected), 0.5)  # without refraction all would be 1/2
+        self.assertGreater(np.ptp(expected), 0.5)  # Without refraction all values would be 1/2.
         self.assertTrue(np.allclose(values[np.abs(places) > 1.05 * RADIUS, 0], 0.5, atol=1e-3))
 
     def test_glass_reflects_by_fresnel_and_absorbs_by_lambert(self):
@@ -89,18 +89,18 @@ class Materials(unittest.TestCase):
         _, values = self.middle_row(self.render(dark + "#declare Meniscus_Background = rgb 1;\n"
                                                 "#declare Meniscus_Absorbs = rgb <1, 0.5, 0>;"))
         mirrored = ((IOR - 1) / (IOR + 1)) ** 2
-        # What is mirrored shows the same white; the rest goes through the ball.
+        # The mirror image shows the same white; the rest of the light goes through the ball.
         for channel, absorbs in enumerate((1, 0.5, 0)):
             expected = mirrored + (1 - mirrored) * math.exp(-absorbs * 2 * RADIUS / 5)
             self.assertAlmostEqual(values[WIDTH // 2, channel], expected, delta=0.004)
-        # White behind the viewer alone: nothing but the mirror image, more of it where the view grazes.
+        # White lies behind the viewer alone, so that only the mirror image shows, brighter where the view grazes.
         with open(os.path.join(self.folder, "surface.pov"), encoding="utf-8") as file:
             forward = re.search(r"Meniscus_Forward = (<[^>]+>);", file.read()).group(1)
         behind = (dark.replace("pigment { rgbt 1 }", f"pigment {{ gradient {forward} color_map {{ [0 rgb 1] [0.5 rgb 1] "
                                f"[0.5 rgb 0] [1 rgb 0] }} scale 2 translate -{forward} }}")
                   + "#declare Meniscus_Background = rgb 0; #declare Meniscus_Absorbs = rgb 100;")
         places, values = self.middle_row(self.render(behind))
-        for share in (0.0, 0.3, 0.6):  # up to 45 degrees the mirror image is behind the viewer
+        for share in (0.0, 0.3, 0.6):  # Up to 45 degrees the mirror image is behind the viewer.
             n = int(np.argmin(np.abs(places - share * RADIUS)))
             angle = math.asin(abs(places[n]) / RADIUS)
             within = math.asin(math.sin(angle) / IOR)
@@ -134,7 +134,7 @@ class Materials(unittest.TestCase):
             self.assertEqual(picture[0, 0, 0], 1.0)
 
     def test_highlights_are_those_of_the_view(self):
-        """A black molecule has no light but its highlights."""
+        """A black molecule shows no light but its highlights."""
         ours, camera = (os.path.join(self.holder.name, name) for name in ("ours.png", "camera.json"))
         common = ["--color", "black", "--size", "320x240", "-q"]
         self.run_program(PROGRAM, "render", UBIQUITIN, "-o", ours, *common, "--preset", "classic", "--samples", "1",

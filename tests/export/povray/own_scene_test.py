@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A surface in a scene of the user's own: where it stands, what may be declared before, what CSG does with it: PROGRAM POVRAY."""
+"""A surface in a user's own scene: its place, earlier declarations and the effect of CSG: PROGRAM POVRAY."""
 
 import os
 import re
@@ -12,8 +12,8 @@ import numpy as np
 import OpenImageIO
 
 PROGRAM, POVRAY = sys.argv[1:3]
-WIDTH, HEIGHT = 120, 60  # of 12 by 6 Å
-RADIUS, APART, SHIFT = 1.7, 1.5, 3.0  # two balls along z, so that no single primitive is the surface
+WIDTH, HEIGHT = 120, 60  # pixels of a picture of 12 by 6 Å
+RADIUS, APART, SHIFT = 1.7, 1.5, 3.0  # Two balls along z make a surface of more than one primitive.
 HEAD = """#version 3.7;
 global_settings { assumed_gamma 1 }
 background { rgb <0, 0, 1> }
@@ -40,7 +40,7 @@ class OwnScene(unittest.TestCase):
         return folder
 
     def render(self, folder, text):
-        """The picture of a scene of our own, which looks along -z, (rows, columns, 3); and what it says."""
+        """Returns the picture of a scene of ours that looks along -z, (rows, columns, 3), and its messages."""
         with open(os.path.join(folder, "own.pov"), "w", encoding="ascii") as file:
             file.write(HEAD + text)
         done = subprocess.run([POVRAY, "+Iown.pov", "+Oown.png", f"+W{WIDTH}", f"+H{HEIGHT}", "-D", "-A", "File_Gamma=1.0"],
@@ -53,11 +53,11 @@ class OwnScene(unittest.TestCase):
         return self.render(self.export(*options), INCLUDE + placed)[0]
 
     def lying(self, placed, before=""):
-        """The two balls beside one another, at z = 0."""
+        """Returns the picture of the two balls next to each other, at z = 0."""
         return self.render(self.export(), before + INCLUDE + placed.replace("SURFACE", "object { Meniscus_Surface rotate 90*y }"))[0]
 
     def disc(self, x, radius):
-        """Pixels whose middle is that near to a place, in Å."""
+        """Returns the pixels whose middle lies within a radius of a place, in Å."""
         across, up = (np.arange(WIDTH) + 0.5) / 10 - 6, (np.arange(HEIGHT) + 0.5) / 10 - 3
         return np.hypot(*np.meshgrid(across - x, up)) < radius
 
@@ -78,7 +78,7 @@ class OwnScene(unittest.TestCase):
             self.assertGreater(found[self.disc(place, 0.5)][:, channel].min(), 0.3, name)
 
     def test_settings_are_what_was_declared_before_and_no_other_name_is_left(self):
-        """Names of all files that an export may have; the scene's own ones stay as they are."""
+        """The test finds the names in all files that an export may have; the scene's own names keep their values."""
         ensemble = "/usr/share/freesasa/test-data/1d3z.pdb"
         few = ["--select", "resi 1-5", "--clip", "depth>0.3", "--sticks", "resi 1-3", "--film-opacity", "--opacity", "resi 4=0.5"]
         cases = ((None, ["--clip", "z<1.5"]), (ensemble, few), (ensemble, [*few, "--frames", "1,3", "--color", "radial"]),
@@ -114,7 +114,7 @@ class OwnScene(unittest.TestCase):
     def test_a_texture_is_a_setting_and_an_interior_is_given_to_the_object(self):
         green = "texture { pigment { rgb y } finish { ambient 1 diffuse 0 } }"
         middle = self.disc(0, 0.5)
-        self.assertGreater(self.lying(f"object {{ SURFACE {green} }}")[middle][:, 0].min(), 0.3)  # the pieces have theirs
+        self.assertGreater(self.lying(f"object {{ SURFACE {green} }}")[middle][:, 0].min(), 0.3)  # The pieces keep their own texture.
         found = self.lying("SURFACE", f"#declare Meniscus_Texture = {green}\n")
         np.testing.assert_allclose(found[middle], np.broadcast_to([0.0, 1.0, 0.0], found[middle].shape), atol=0.01)
         board = "plane { z, -4 pigment { checker rgb 0 rgb 1 scale 0.3 } finish { ambient 1 diffuse 0 } }"
@@ -124,12 +124,12 @@ class OwnScene(unittest.TestCase):
         self.assertLess(np.abs(straight - bent)[:10].max(), 0.01)
 
     def test_a_cut_is_closed_by_clip_and_not_by_difference(self):
-        """Seen from the side of what is cut away: half a ball, whose plane is lit."""
+        """From the side of the removed part one sees half a ball whose plane is lit."""
         cut = self.picture(f"object {{ Meniscus_Surface translate {SHIFT}*x }}", "--clip", f"z<{APART}")
         cap = cut[self.disc(SHIFT, 0.9 * RADIUS)]
         self.assertGreater(cap[:, 0].min(), 0.3)
-        self.assertLess(np.ptp(cap, axis=0).max(), 0.02)  # flat
-        # As the README says: patches are open, so that a difference of theirs is a shell, black inside.
+        self.assertLess(np.ptp(cap, axis=0).max(), 0.02)  # The cap is flat.
+        # The README explains it: patches are open, so that their difference is a shell, black inside.
         shell = self.picture(f"difference {{ object {{ Meniscus_Surface }} plane {{ -z, {-APART} }} translate {SHIFT}*x }}")
         self.assertLess(shell[self.disc(SHIFT, 0.9 * RADIUS)].max(), 0.05)
 
@@ -152,15 +152,15 @@ class OwnScene(unittest.TestCase):
 
     def test_the_inside_is_not_known_between_atoms(self):
         ask = "".join(f'#warning concat("said: ", str(inside(Meniscus_Surface, <0, 0, {z}>), 0, 0), "\\n")\n' for z in (APART, 0, 9))
-        self.assertEqual(self.render(self.export(), INCLUDE + ask)[1], ["1", "0", "0"])  # the second is within the solid, too
-        # So a body from which the surface is taken away is not there at all,
+        self.assertEqual(self.render(self.export(), INCLUDE + ask)[1], ["1", "0", "0"])  # The second point is within the solid, too.
+        # A body from which the surface is subtracted disappears entirely.
         body = "sphere { 0, 2.9 pigment { rgb y } finish { ambient 1 } }"
         self.assertGreater(self.lying(f"{body}")[self.disc(0, 2.5)][:, 1].min(), 0.9)
         self.assertLess(self.lying(f"difference {{ {body} SURFACE }}")[self.disc(0, 2.5)][:, 1].max(), 0.05)
-        # an intersection is not there either, between the atoms, although the ball is within the solid,
+        # An intersection between the atoms is empty, although the ball is within the solid.
         small = body.replace("2.9", "0.3")
         self.assertLess(self.lying(f"intersection {{ {small} SURFACE }}")[self.disc(0, 0.2)][:, 1].max(), 0.05)
-        # and a merge keeps walls between the atoms: the layers differ from those of the balls' merge.
+        # A merge keeps walls between the atoms: its layers differ from those of merged balls.
         clear = "#declare Meniscus_Texture = texture { pigment { rgbt <0, 0, 0, 0.5> } finish { ambient 0 diffuse 0 } }\n"
         merged = self.lying("merge { object { SURFACE translate -y } object { SURFACE translate y } }", clear)
         layers = np.log2(np.maximum(merged[:, :, 2], 1e-3))

@@ -10,7 +10,7 @@
 namespace meniscus::testing {
 namespace {
 
-// No edge of any patch stays parallel to an axis.
+// Tilts a molecule so that no edge of any patch stays parallel to an axis.
 NamedBalls tilted(NamedBalls m) {
   const glm::dvec3 x = glm::normalize(glm::dvec3(0.8, 0.5, -0.33)), y = glm::normalize(glm::cross(x, {0.1, 0.3, 1.0}));
   for (Ball& b : m.balls)

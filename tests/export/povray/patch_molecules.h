@@ -17,13 +17,13 @@ NamedBalls three_atoms();   ///< two fixed probes that do not touch
 NamedBalls wide_arc();      ///< an arc of more than 180°
 NamedBalls cut_probes();    ///< a spindle arc, and two fixed probes that cut each other
 NamedBalls square();        ///< four atoms on one probe
-/// All of them for the probe kWater, a random gas and C60 (faces of five and six atoms, a cavity).
+/// Returns all of them for the probe kWater, a random gas and C60 (faces of five and six atoms, a cavity).
 std::vector<NamedBalls> patch_molecules();
 
-/// One to three colours in turn: with three, neighbours mostly differ, and some patches have two atoms of one colour.
+/// Gives atoms one to three colours in turn: with three, most neighbours differ, and some patches have one twice.
 Coloring turning_colors(std::size_t atom_count, int color_count);
 
-/// For GoogleTest's messages.
+/// Prints a molecule's name in GoogleTest's messages.
 inline void PrintTo(const NamedBalls& m, std::ostream* out) { *out << m.name; }
 
 }  // namespace meniscus::testing

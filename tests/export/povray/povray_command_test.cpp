@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export povray` as users meet it, with files that try to write scene code.
+// `meniscus export povray` with files that try to write scene code.
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -14,7 +14,7 @@
 namespace meniscus::testing {
 namespace {
 
-// Two mmCIF atoms with the given names. Text fields hold anything but newlines.
+// Returns two mmCIF atoms with the given names. Text fields hold anything but newlines.
 std::string mmcif(const std::string& atom_name, const std::string& residue, const std::string& chain) {
   std::string text =
       "data_x\nloop_\n_atom_site.group_PDB\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
@@ -49,10 +49,10 @@ TEST(PovrayCommand, TextOfAMoleculeNeverReachesTheScene) {
       const std::string text = test::read_bytes(folder.path() / "b" / file);
       for (const char* const word : {"#fopen", "passwd", "#error", "write //"})
         EXPECT_EQ(text.find(word), std::string::npos) << word << " in " << file;
-      // Residue names choose colours; otherwise not a byte may differ.
+      // Residue names choose colours; without them not a byte may differ.
       if (color != "residue") {
         std::string expected = test::read_bytes(folder.path() / "a" / file);
-        // A name that might do something is not a comment, either.
+        // A name that might act as code is no comment, either.
         const std::size_t name = color == "chain" ? expected.find(comment) : std::string::npos;
         if (name != std::string::npos) expected.erase(name, comment.size());
         EXPECT_TRUE(expected == text) << file << " by " << color;
@@ -64,7 +64,7 @@ TEST(PovrayCommand, TextOfAMoleculeNeverReachesTheScene) {
 TEST(PovrayCommand, CommentsNameKindsAndAtomsThatAreHarmless) {
   const test::TemporaryFolder folder;
   const std::string plain = folder.file("plain.cif", mmcif("CA", "ALA", "A"));
-  // Short enough that nothing but their letters speaks against them.
+  // The names are short enough, so that only their letters are refused.
   const std::string hostile = folder.file("h.cif", mmcif("'{#'", "'*/'", "'\"}'"));
   const auto geometry = [&](const std::string& file, const std::string& name, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{

@@ -36,8 +36,8 @@ TEST_P(SmallMolecule, EveryPixelAgreesInPerspectiveAndOrthographic) {
 INSTANTIATE_TEST_SUITE_P(PovrayExport, SmallMolecule, ::testing::ValuesIn(patch_molecules()),
                          [](const auto& instance) { return instance.param.name; });
 
-// Where something is as large as something else, or another probe rolls. All of degenerate_molecules() agree; these
-// few stand for them, since every start of POV-Ray takes a second.
+// Sizes coincide, or another probe rolls. All of degenerate_molecules() agree; these few stand for them, since every
+// start of POV-Ray takes a second.
 TEST(PovrayExport, DegenerateMoleculesAndOtherProbes) {
   const std::set<std::string> chosen{"two, circle radius equal to the probe's",
                                      "two, SAS spheres overlap by 1e-7",
@@ -128,7 +128,7 @@ TEST(PovrayExport, PrintedCommandRendersFromAnywhere) {
 }
 
 TEST(PovrayExport, SwitchesOfTheCommandLineAreUnderstood) {
-  const ExportedScene scene({"gas", gas(3, 12, 8.0, 1.2, 1.8)});  // some are in the light of others
+  const ExportedScene scene({"gas", gas(3, 12, 8.0, 1.2, 1.8)});  // Some atoms shade others.
   const test::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "scene";
   scene.write(oblique_camera(scene.surface(), Projection::perspective, kAspect), 32, 24, path);

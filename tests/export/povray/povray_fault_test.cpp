@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kWidth = 240, kHeight = 180;
 
-// Applies a regular expression to the lines of one primitive ("torus" or "sphere").
+// Returns a fault that applies a regular expression to the lines of one primitive ("torus" or "sphere").
 Mutation on_lines(const std::string& primitive, const std::string& pattern, const std::string& replacement) {
   return [=](const std::string& text) {
     const std::regex expression(pattern);
@@ -27,14 +27,14 @@ Mutation on_lines(const std::string& primitive, const std::string& pattern, cons
 }
 
 BufferDifference with_fault(const NamedBalls& molecule, const Mutation& fault) {
-  // One colour, so that no plane but those of the geometry is in the text.
+  // One colour keeps all planes but those of the geometry out of the text.
   const ExportedScene scene(molecule, 1);
   const Camera camera = oblique_camera(scene.surface(), Projection::perspective, static_cast<double>(kWidth) / kHeight);
   return scene.difference(camera, kWidth, kHeight, fault);
 }
 
 const char* const kLemon = "sphere\\{<[^>]*>,[^ }]* inverse\\}";
-// Three side planes of a concave patch, then its bisectors, then its box.
+// The pattern matches three side planes of a concave patch, then its bisectors, then its box.
 const char* const kBisectors = "(clipped_by\\{(?:plane\\{[^}]*\\}){3})(?:plane\\{[^}]*\\})+(box)";
 
 TEST(PovrayFault, NoFaultNoDifference) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's own picture and POV-Ray's picture of its export, of one camera: where are they, and which way do they
-// face?
+// The program's own picture and POV-Ray's picture of its export from one camera have equal points and normals.
 #include <cmath>
 #include <iostream>
 #include <string>
@@ -16,7 +15,7 @@
 namespace meniscus::testing {
 namespace {
 
-// Three channels of an image by name.
+// Reads three channels of an image by name.
 std::vector<glm::dvec3> read_channels(const std::string& file, const std::string& prefix) {
   const auto input = OIIO::ImageInput::open(file);
   if (!input) throw std::runtime_error("cannot read " + file);

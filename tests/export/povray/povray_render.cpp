@@ -22,7 +22,7 @@ std::size_t statistic(const std::string& log, const std::string& label) {
   return std::stoul(match[1]);
 }
 
-// "#declare NAME = <x,y,z>;" or "#declare NAME = x;" of a scene text.
+// Reads "#declare NAME = <x,y,z>;" or "#declare NAME = x;" from a scene text.
 glm::dvec3 declared(const std::string& text, const std::string& name) {
   std::smatch match;
   if (!std::regex_search(text, match, std::regex("#declare " + name + " = <?([^,>;]+),?([^,>;]*),?([^,>;]*)>?;")))

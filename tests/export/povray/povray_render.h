@@ -13,18 +13,18 @@ namespace meniscus::testing {
 struct PovrayRun {
   int exit_code = -1;
   std::string log;
-  std::size_t finite_objects = 0;  ///< as POV-Ray counts them
+  std::size_t finite_objects = 0;  ///< POV-Ray's own count
   std::size_t infinite_objects = 0;
   std::vector<std::string> warnings;  ///< lines that warn, without those about the user's missing configuration
 };
 
-/// `povray ARGUMENTS` in `folder`, without a window.
+/// Runs `povray ARGUMENTS` in `folder`, without a window.
 PovrayRun run_povray(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-/// 16 bits can tell fewer layers than this apart.
+/// The largest count of layers: 16 bits distinguish no more.
 inline constexpr int kMostLayers = 255;
 
-/// What the buffer include gives, one entry a pixel, rows from the top. Where nothing was hit only `hit` counts.
+/// Values of the buffer include, one entry a pixel, rows from the top. Where nothing was hit only `hit` counts.
 struct Buffers {
   int width = 0, height = 0;
   std::vector<char> hit;
@@ -38,7 +38,7 @@ struct Buffers {
 Buffers render_buffers(const std::filesystem::path& folder, const std::string& name, int width, int height,
                        PovrayRun* run = nullptr);
 
-/// Pixels of an image as RGBA in [0, 1], no colour conversion.
+/// Returns the pixels of an image as RGBA in [0, 1], without colour conversion.
 std::vector<glm::dvec3> read_rgb(const std::filesystem::path& file, std::vector<double>* alpha = nullptr);
 
 void write_text(const std::filesystem::path& file, const std::string& text);

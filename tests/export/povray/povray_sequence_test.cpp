@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of frames as one POV-Ray scene: which frame is which, split over machines, with a camera that moves.
+// A run of frames in one POV-Ray scene: frames have their numbers, machines share them, and cameras move.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -18,7 +18,7 @@ namespace {
 // Fifteen residues of ubiquitin in solution: ten models, which are the frames.
 const std::vector<std::string> kMolecule{
     "/usr/share/freesasa/test-data/1d3z.pdb", "--select", "resi 1-15", "--device", "cpu", "--size", "120x90"};
-const std::vector<int> kFrames{1, 3, 5};  // of --frames 1-5:2
+const std::vector<int> kFrames{1, 3, 5};  // frames of --frames 1-5:2
 
 using Words = std::vector<std::string>;
 
@@ -36,14 +36,14 @@ class PovraySequence : public ::testing::Test {
   test::ProgramResult export_run(const std::string& name, const Words& options) const {
     return meniscus({"export", "povray"}, Words{"-o", path(name).string()} + options);
   }
-  /// Renders without antialiasing and gives the pixels of each picture, by their names.
+  /// Returns the pixels of a rendered picture.
   std::vector<glm::dvec3> picture(const std::string& scene, const std::string& name) const {
     return read_rgb(path(scene) / name);
   }
   PovrayRun render(const std::string& scene, const Words& options = {}) const {
     return run_povray(path(scene), Words{"surface.ini", "-A"} + options);
   }
-  /// A camera for all frames.
+  /// Saves a camera for all frames and returns its path.
   std::string camera() const {
     const std::string file = path("camera.json").string();
     EXPECT_EQ(meniscus({"render"}, {"-o", path("still.png").string(), "--save-camera", file, "--force"}).exit_code, 0);
@@ -98,7 +98,7 @@ TEST_F(PovraySequence, SharesAreTheSameBytesAsOneRun) {
     ++files;
   }
   EXPECT_EQ(files, 6 + kFrames.size());
-  // What is there of another run is not overwritten.
+  // Files of another run in the folder are not overwritten.
   const test::ProgramResult other = export_run("shares", {"--frames", "0-4:2"});
   EXPECT_EQ(other.exit_code, 6) << other.err;
 }
@@ -110,7 +110,7 @@ TEST_F(PovraySequence, MissingAndForeignFramesAreNamedErrors) {
   EXPECT_NE(missing.exit_code, 0);
   EXPECT_NE(missing.log.find("there is no surface_geometry_00003.inc"), std::string::npos) << missing.log;
   EXPECT_FALSE(std::filesystem::exists(path("run") / "surface_00003.png"));
-  // The same atoms in other colours: the numbers of the colours mean something else.
+  // The other run has the same atoms, but its numbers of colours mean other colours.
   ASSERT_EQ(export_run("other", {"--frames", "1-5:2", "--color", "residue", "--only", "3"}).exit_code, 0);
   std::filesystem::copy(path("other") / "surface_geometry_00003.inc", path("run"));
   const PovrayRun foreign = render("run", {"+SF3", "+EF3"});
@@ -141,7 +141,7 @@ TEST_F(PovraySequence, TheCameraMovesUnlessTheUserHasOne) {
   EXPECT_EQ(share_of_other_pixels(picture("turning", "own2.png"), picture("still", "own2.png")), 0.0);
 }
 
-// POV-Ray goes through even steps by itself; through others by their places.
+// POV-Ray counts even steps itself; it finds other frames by their places in the run.
 TEST_F(PovraySequence, PicturesHaveNumbersOfTheTrajectoryOrPlacesInTheRun) {
   for (const auto& [frames, numbers] :
        {std::pair{"4", Words{"4"}}, std::pair{"0-2", Words{"0", "1", "2"}}, std::pair{"1-5:2", Words{"1", "3", "5"}},
@@ -176,7 +176,7 @@ TEST_F(PovraySequence, PicturesHaveNumbersOfTheTrajectoryOrPlacesInTheRun) {
   EXPECT_NE(beyond.log.find("is no place 3 in this run of 2 frames"), std::string::npos) << beyond.log;
 }
 
-// Their include must be that of the geometry, and of the run.
+// The include of colours that change must belong to the geometry's frame and run.
 TEST_F(PovraySequence, ColorsThatChangeBelongToTheirFrame) {
   ASSERT_EQ(export_run("run", {"--frames", "1-5:2", "--color", "radial"}).exit_code, 0);
   EXPECT_EQ(render("run", {"+SF3", "+EF3"}).exit_code, 0);
@@ -209,7 +209,7 @@ TEST_F(PovraySequence, TheCameraIsSaved) {
   };
   for (const std::string name : {"Meniscus_Right", "Meniscus_Up", "Meniscus_Forward", "Meniscus_Picture_Height"})
     EXPECT_EQ(line("run", name), line("one", name));
-  EXPECT_EQ(export_run("two", {"--save-camera", again}).exit_code, 6);  // it is there
+  EXPECT_EQ(export_run("two", {"--save-camera", again}).exit_code, 6);  // The camera's file exists.
   EXPECT_FALSE(std::filesystem::exists(path("two")));
   const std::string moving = path("moving.json").string();
   ASSERT_EQ(export_run("turning", {"--frames", "3,1", "--turntable", "1", "--save-camera", moving}).exit_code, 0);

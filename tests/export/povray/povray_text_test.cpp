@@ -23,7 +23,7 @@ namespace {
 using testing::kWater;
 
 TEST(SceneText, NumbersAreShortFixedAndWithoutLocale) {
-  std::setlocale(LC_ALL, "de_DE.UTF-8");  // has a decimal comma where it is installed
+  std::setlocale(LC_ALL, "de_DE.UTF-8");  // This locale, where it is installed, has a decimal comma.
   SceneText text;
   text.length(1.5).literal(" ").length(-0.0000001).literal(" ").length(123.4567891).literal(" ").length(40.0);
   text.literal(" ").ratio(1.0 / 3.0).literal(" ").ratio(-1e-9).literal(" ").length(100.0);
@@ -81,7 +81,7 @@ TEST(PatchExtent, ArcsFitTheirSamples) {
   }
 }
 
-// Points of a saddle patch by its definition: the probe rolls, and between its contacts lies the arc.
+// Samples a saddle patch by its definition: the probe rolls, and the arc lies between its contacts.
 Box sampled_saddle(const Surface& s, const ToroidalPatch& t) {
   Box sampled;
   for (int i = 0; i <= 300; ++i) {
@@ -144,7 +144,7 @@ TEST(Palette, PatchesSplitOnlyBetweenColours) {
   EXPECT_EQ(make_palette(s, by_kind, table).pieces.size(), patches);
   EXPECT_EQ(table.colors().size(), 2u);
 
-  // Of three atoms in a ring one is hidden: its convex patch goes; of the others no patch goes as a whole.
+  // One of three atoms in a ring is hidden: its convex patch goes, and no other patch goes as a whole.
   for (Coloring coloring : {testing::turning_colors(3, 1), testing::turning_colors(3, 3), by_kind}) {
     const std::size_t all = pieces(coloring).size();
     const bool one_color = coloring.atom[0] == coloring.atom[1] || coloring.kind;

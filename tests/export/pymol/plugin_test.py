@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""plugin_test.py PLUGIN: the plugin's commands in PyMOL without a window, beside what the package says of the same atoms."""
+"""plugin_test.py PLUGIN: the plugin's commands in PyMOL without a window, against the package itself."""
 
 import importlib.util
 import io
@@ -20,7 +20,7 @@ except ImportError:
     sys.exit(77)
 
 PLUGIN = sys.argv.pop(1)
-UBIQUITIN = pathlib.Path("/usr/share/freesasa/test-data/1ubq.pdb")  # with water
+UBIQUITIN = pathlib.Path("/usr/share/freesasa/test-data/1ubq.pdb")  # a protein with water
 
 spec = importlib.util.spec_from_file_location("meniscus_plugin", PLUGIN)
 plugin = importlib.util.module_from_spec(spec)
@@ -28,7 +28,7 @@ spec.loader.exec_module(plugin)
 
 
 def said_by(command):
-    """What a line of PyMOL's command language prints."""
+    """Returns the output of a line of PyMOL's command language."""
     text = io.StringIO()
     with redirect_stdout(text):
         cmd.do(command, echo=0)
@@ -36,7 +36,7 @@ def said_by(command):
 
 
 def atoms(selection):
-    """Positions and radii."""
+    """Returns positions and radii."""
     rows = []
     cmd.iterate_state(1, selection, "rows.append((x, y, z, vdw))", space={"rows": rows})
     return np.array(rows)[:, :3], np.array(rows)[:, 3]
@@ -148,12 +148,12 @@ class Plugin(unittest.TestCase):
             low, high = np.array(cmd.get_extent(f"pocket_{place}"))
             np.testing.assert_allclose((low, high), (pocket.probes.min(axis=0) - 1.4, pocket.probes.max(axis=0) + 1.4),
                                        atol=0.15)
-        said_by("meniscus_pockets ubi, min_volume=1000")  # the older ones go
+        said_by("meniscus_pockets ubi, min_volume=1000")  # The older pockets go.
         self.assertEqual([name for name in cmd.get_names() if name.startswith("pocket_")], [])
 
     def test_names_of_molecules_are_safe(self):
         said_by("meniscus ubi, tolerance=0.5")
-        said_by("meniscus ubi, tolerance=0.5")  # again: the older one is replaced
+        said_by("meniscus ubi, tolerance=0.5")  # The second surface replaces the first.
         self.assertEqual(cmd.get_names(), ["ubi", "meniscus"])
         self.assertIn("ubi is a object:molecule already", said_by("meniscus ubi, name=ubi"))
         self.assertGreater(cmd.count_atoms("ubi"), 600)
@@ -170,7 +170,7 @@ class Plugin(unittest.TestCase):
             plugin.meniscus("ubi")
 
     def test_names_of_users_do_not_break_it(self):
-        """`run` shares one namespace with scripts and with what is typed."""
+        """`run` shares one namespace with scripts and with typed commands."""
         said_by(f"run {PLUGIN}")
         said_by("import meniscus")
         said_by("show = name = states = None")
@@ -185,7 +185,7 @@ class Plugin(unittest.TestCase):
             cmd.bg_color("white")
             cmd.ray(80, 60)
             cmd.png(str(picture))
-            self.assertGreater(picture.stat().st_size, 1000)  # an empty one has about 200
+            self.assertGreater(picture.stat().st_size, 1000)  # An empty picture has about 200.
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""vdb_test.py PROGRAM: level sets of `meniscus export vdb` in OpenVDB's own reader, beside distances of libmeniscus."""
+"""vdb_test.py PROGRAM: level sets of `meniscus export vdb`, read by OpenVDB, against distances of libmeniscus."""
 
 import pathlib
 import random
@@ -43,7 +43,7 @@ class Vdb(unittest.TestCase):
         return pyopenvdb.read(str(self.folder / name), "surface")
 
     def compare(self, grid, voxel, scale, surface):
-        """Voxels in the band with the distances there, and those beyond with their signs; 1,000 each."""
+        """Compares 1,000 voxels in the band with distances there, and 1,000 voxels outside of it by their signs."""
         self.assertAlmostEqual(grid.transform.voxelSize()[0], voxel * scale)
         chosen = random.Random(1)
         active = chosen.sample([(item.min, item.value) for item in grid.citerOnValues()], 1000)
@@ -74,7 +74,7 @@ class Vdb(unittest.TestCase):
             self.compare(grid, voxel, scale, self.surface)
 
     def test_its_zero_is_the_surface(self):
-        """OpenVDB's own mesh of it: its points lie on the surface, about as far off as an edge of a voxel bends."""
+        """Points of OpenVDB's own mesh lie on the surface, about as far off as an edge of a voxel bends."""
         self.export("b.vdb", UBIQUITIN, "--voxel", "0.4")
         points, quads = self.grid("b.vdb").convertToQuads()
         off = np.abs(self.surface.distance(points.astype(float)))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Assemblies: operator expressions, the records of PDB and mmCIF, and what is built of them.
+// Assemblies: operator expressions, the records of PDB and mmCIF, and the molecules built from them.
 #include <cmath>
 
 #include "core/base/error.h"
@@ -62,7 +62,7 @@ void check_file(std::string_view bytes, std::vector<Assembly> (*read)(const Text
 }
 
 void run_assembly(std::string_view bytes) {
-  if (bytes.find('\0') != std::string_view::npos) return;  // never in a text that was read
+  if (bytes.find('\0') != std::string_view::npos) return;  // A text that was read never has it.
   check_expression(bytes);
   check_file(bytes, read_pdb_assemblies);
   check_file(bytes, read_mmcif_assemblies);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads any bytes as the bundle.json of a farm, and writes and reads again what it took from them.
+// Reads any bytes as the bundle.json of a farm, then writes the bundle and reads it again.
 #include "app/farm/bundle.h"
 #include "core/base/error.h"
 #include "tests/fuzz/target.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C interface: calls in any order, with arguments from a list that has bad ones in it. Each byte picks a call or an
-// argument.
+// The C interface gets calls in any order, with arguments from a list that has bad ones in it. Each byte picks a call
+// or an argument.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -22,7 +22,7 @@ constexpr std::size_t kMostCalls = 40, kRows = 12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// Choices from bytes; none left: the first of each list.
+/// Makes choices from bytes; without bytes, the first of each list.
 class Choices {
  public:
   explicit Choices(std::string_view bytes) : rest_(bytes) {}
@@ -46,7 +46,7 @@ class Choices {
   std::string_view rest_;
 };
 
-/// The references to objects of one kind that the caller has; those left at the end are given back.
+/// The caller's references to objects of one kind, which are released at the end.
 template <typename Object, void (*Release)(Object*), Object* (*Retain)(Object*)>
 class Held {
  public:
@@ -56,7 +56,7 @@ class Held {
   ~Held() {
     for (Object* object : held_) Release(object);
   }
-  /// NULL among them.
+  /// Returns one of the objects or NULL.
   Object*& any(Choices& choices) { return held_[choices.below(held_.size())]; }
   void put(Choices& choices, Object* object) {
     Object*& place = any(choices);
@@ -84,7 +84,7 @@ class Caller {
   using Call = void (Caller::*)();
   static const Call kCalls[20];
 
-  /// A status that there is, with a sentence unless all went well, and no fault of the library.
+  /// Checks that a status is known, has a sentence unless all went well, and is no fault of the library.
   bool done(meniscus_status status) {
     require(status >= MENISCUS_OK && status <= MENISCUS_NOT_CLOSED, "a status is one of the header");
     require(status != MENISCUS_INTERNAL, "no call finds a fault of the library");
@@ -173,7 +173,7 @@ class Caller {
     done(meniscus_surface_summary(surface, rarely_null(&summary)));
   }
 
-  /// Every byte of it can be read.
+  /// Reads every byte of the array.
   void read(const meniscus_array& array) {
     require(array.count == 0 || array.data, "rows stand somewhere");
     const auto* const bytes = static_cast<const unsigned char*>(array.data);
@@ -224,7 +224,7 @@ class Caller {
   void make_mesh() {
     meniscus_mesh_options options{};
     const meniscus_mesh_options* wanted = optional(options, meniscus_default_mesh_options);
-    if (!wanted) wanted = &options;  // the default is fine, and slow
+    if (!wanted) wanted = &options;  // The default is fine, and slow.
     options.tolerance = choices_.of({0.3, 1.0, 0.0, kNoNumber});
     options.density = choices_.of({0.0, 0.5, -1.0, kInfinity});
     const bool even = choices_.yes();
@@ -263,7 +263,7 @@ class Caller {
     const std::size_t room = choices_.of({std::size_t{80}, std::size_t{3}, kMost});
     meniscus_renderer* const renderer = renderers_.any(choices_);
     meniscus_scene* const scene = scenes_.any(choices_);
-    if (scene) set(scene, "size", choices_.of({"5x4", "1x1", "4x5"}));  // larger ones take long
+    if (scene) set(scene, "size", choices_.of({"5x4", "1x1", "4x5"}));  // Larger pictures take long.
     done(choices_.yes() ? meniscus_render_scene(renderer, scene, rgba.data(), room)
                         : meniscus_render(renderer, surface, scene, seen_by, colors, rgba.data(), room));
   }
@@ -280,7 +280,7 @@ class Caller {
   bool set(meniscus_scene* scene, const char* name, const char* value) {
     return done(meniscus_scene_set(scene, name, value));
   }
-  /// Of any property a text that may be one of its values, or of others.
+  /// Sets any property to a text that may be one of its values, or one of another property's.
   void set_value() {
     meniscus_array table{};
     require(done(meniscus_scene_properties(&table)), "there is a table of properties");
@@ -299,7 +299,7 @@ class Caller {
       meniscus_scene* again = nullptr;
       keep(scenes_, meniscus_scene_parse(text, &again), again);
     }
-    meniscus_scene* const asked = scenes_.any(choices_);  // the one before may be gone
+    meniscus_scene* const asked = scenes_.any(choices_);  // The earlier scene may be gone.
     if (done(meniscus_scene_get(asked, choices_.of({"label", "look.preset", "none"}), choices_.below(3),
                                 rarely_null(&text))) &&
         text)
@@ -345,7 +345,7 @@ class Caller {
   }
 
   Choices choices_;
-  /// Rows of x, y, z, radius as any stride of the list reaches them.
+  /// Rows of x, y, z, radius as far as any stride of the list reaches.
   std::vector<double> memory_ = std::vector<double>(4 * kRows + 16);
   Held<meniscus_computer, meniscus_computer_release, meniscus_computer_retain> computers_;
   Held<meniscus_surface, meniscus_surface_release, meniscus_surface_retain> surfaces_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files through the C interface: the first line chooses options, a character each, the rest is the file.
+// Files through the C interface: the first line chooses options, one a character, and the rest is the file.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -21,7 +21,7 @@ bool done(meniscus_status status) {
   return status == MENISCUS_OK;
 }
 
-/// Option k as the k-th character says; where there is none, the first of each list.
+/// Chooses option k by the k-th character; where there is none, the first of each list.
 meniscus_read_options options_of(std::string_view line) {
   const auto choice = [&](std::size_t k, std::size_t count) {
     return k < line.size() ? static_cast<unsigned char>(line[k]) % count : 0;
@@ -48,7 +48,7 @@ meniscus_read_options options_of(std::string_view line) {
   return options;
 }
 
-/// Each column has a row an atom that can be read; texts end within their rows.
+/// Checks that each column has a readable row for each atom, and that texts end within their rows.
 void look_at(const meniscus_structure* structure, std::size_t atoms) {
   for (std::int32_t column = 0; column <= MENISCUS_STRUCTURE_HYDROPATHIES; ++column) {
     meniscus_array array{};

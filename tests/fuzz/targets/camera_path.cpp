@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Camera paths: every camera between the keys is one that can be used.
+// Camera paths: every camera between the keys can be used.
 #include "core/base/error.h"
 #include "core/camera/camera.h"
 #include "core/camera/camera_json.h"

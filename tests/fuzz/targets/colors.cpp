@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of numbers to colour by, and the words of colours, maps and ranges; and the colours that come of them.
+// Files of numbers to colour by, the words of colours, maps and ranges, and their colours.
 #include <cmath>
 
 #include "core/base/error.h"
@@ -26,7 +26,7 @@ void check_colors(const ColorScheme& scheme) {
   }
 }
 
-/// Words as they are behind options.
+/// Checks words in the form of option values.
 void check_words(std::string_view text) {
   if (const auto color = parse_color(text)) require_color(*color);
   try {
@@ -44,7 +44,7 @@ void check_words(std::string_view text) {
   if (const auto scheme = parse_color_scheme(text)) check_colors(*scheme);
 }
 
-/// The number file, repeated or cut to the number of atoms, with every map.
+/// Colours by the number file, repeated or cut to the number of atoms, with every map.
 void check_numbers(NumberFile file) {
   const std::size_t given = file.numbers.size(), needed = sample_atoms().size();
   file.numbers.resize(needed);

@@ -12,7 +12,7 @@ std::unique_ptr<Trajectory> open(const std::string& path, const TrajectoryOption
   return kMdcrdFormat.open(path, {.index_folder = {}, .atoms = [] { return atoms; }});
 }
 
-/// The first letter of the title is the number of atoms.
+/// Takes the number of atoms from the first letter of the title.
 void run_mdcrd(std::string_view bytes) {
   static const ScratchFile file("input.mdcrd");
   atoms = bytes.empty() ? 1 : static_cast<unsigned char>(bytes.front()) % 32 + 1;

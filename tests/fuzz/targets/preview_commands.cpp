@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands of a preview, one JSON object a line: recorded sessions, their values, and the merging of what waits.
+// Commands of a preview, one JSON object a line: recorded sessions, their values, and merged waiting commands.
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 using Ordered = nlohmann::ordered_json;
 
-/// Calls what may refuse a command.
+/// Calls an action that may refuse a command.
 template <typename Action>
 void attempt(Action&& action) {
   try {
@@ -34,7 +34,7 @@ void attempt(Action&& action) {
   }
 }
 
-/// What a command "set" gives to a property is written as it is read again.
+/// Checks that the value of a command "set" is written as it is read again.
 void check_property(const CommandReader& reader) {
   const std::string key = reader.text("key");
   for (const Property* property : properties()) {
@@ -67,7 +67,7 @@ void check_values(const Json& command) {
   }
 }
 
-/// What waits for a slow session goes into it in order, however much of it was merged.
+/// Checks that waiting commands enter a slow session in order, however many of them were merged.
 void check_mailbox(const std::vector<WrittenCommand>& commands) {
   Mailbox mailbox;
   std::size_t put = 0, taken = 0;

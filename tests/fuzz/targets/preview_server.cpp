@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a browser, or something else, sends to the preview server: HTTP, the handshake of a WebSocket, and its frames.
+// Requests of any client to the preview server: HTTP, the handshake of a WebSocket, and its frames.
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@
 namespace meniscus::fuzz {
 namespace {
 
-constexpr std::string_view kToken = "0123456789abcdef0123456789abcdef";  // as seeds have it
+constexpr std::string_view kToken = "0123456789abcdef0123456789abcdef";  // the seeds' token
 constexpr std::uint16_t kPort = 4711;
 
 /// Both ends of a connection.
@@ -29,7 +29,7 @@ struct Ends {
     server = ends[0];
     client = ends[1];
   }
-  ~Ends() { ::close(client); }  // the server closes its own
+  ~Ends() { ::close(client); }  // The server closes its own end.
   Ends(const Ends&) = delete;
   Ends& operator=(const Ends&) = delete;
 
@@ -40,7 +40,7 @@ struct Ends {
   }
 };
 
-/// The request, and what is sent when it was answered: a client of a WebSocket waits so (RFC 6455, 4.1).
+/// Returns the request, and the bytes that follow its answer: a client of a WebSocket waits so (RFC 6455, 4.1).
 std::array<std::string_view, 2> parts_of(std::string_view bytes) {
   constexpr std::string_view kEnd = "\r\n\r\n";
   const std::size_t end = bytes.find(kEnd);
@@ -49,7 +49,7 @@ std::array<std::string_view, 2> parts_of(std::string_view bytes) {
 }
 
 void run_preview_server(std::string_view bytes) {
-  constexpr std::size_t kMost = 100'000;  // what a socket's buffer holds
+  constexpr std::size_t kMost = 100'000;  // the size of a socket's buffer
   const auto [request, rest] = parts_of(bytes.substr(0, kMost));
   const Ends ends;
   Mailbox mailbox;
@@ -63,7 +63,7 @@ void run_preview_server(std::string_view bytes) {
     }
     ends.send(rest);
     ::shutdown(ends.client, SHUT_WR);
-    context.run_for(std::chrono::seconds(30));  // on a busy machine; a fuzzer gives up sooner
+    context.run_for(std::chrono::seconds(30));  // for a busy machine; a fuzzer gives up sooner
     require(context.stopped(), "a connection that says no more is given up");
   }
   require(clients->connections == 0 && clients->sockets.empty(), "a connection that ended leaves nothing behind");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of radii, alone or two together as CHARMM's topology and parameters are: cut at a line of = signs.
+// Files of radii, alone or in pairs like CHARMM's topology and parameters, divided by a line of = signs.
 #include <cmath>
 
 #include "core/base/error.h"

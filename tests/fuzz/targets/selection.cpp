@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selections: understood or refused with a caret, and sets that obey the laws of sets.
+// Selections are understood or refused with a caret, and obey the laws of sets.
 #include <algorithm>
 #include <optional>
 
@@ -22,7 +22,7 @@ std::optional<Selection> parsed(std::string_view text) {
   }
 }
 
-/// What a longer expression of the same selects; nothing if it is too long or too deep.
+/// Returns the atoms that a longer expression selects; nothing if it is too long or too deep.
 std::optional<std::vector<bool>> selected(const std::string& text, const std::vector<Atom>& atoms) {
   const std::optional<Selection> selection = parsed(text);
   return selection ? std::optional(selection->evaluate(atoms)) : std::nullopt;

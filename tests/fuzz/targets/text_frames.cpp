@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The models of structure files as frames: found in the file, and the same as the reader of the format gives at once.
+// Models of structure files as frames: those found in the file equal the models of the format's reader.
 #include <optional>
 
 #include "core/base/error.h"
@@ -10,7 +10,7 @@
 namespace meniscus::fuzz {
 namespace {
 
-/// All models as the reader of the format gives them; nothing if it refuses the text.
+/// Returns all models by the reader of the format; nothing if it refuses the text.
 std::optional<FileContents> all_models(const std::string& path) {
   try {
     const TextFile file = read_text_file(path);
@@ -30,7 +30,7 @@ std::vector<glm::dvec3> all_frames(Trajectory& trajectory) {
   return positions;
 }
 
-/// Where both ways understand the whole file, they see the same atoms in as many models.
+/// Checks that both ways, where they understand the whole file, see the same atoms in as many models.
 void check_against_reader(const std::string& path) {
   const std::optional<FileContents> contents = all_models(path);
   if (!contents || contents->without_positions) return;
@@ -41,7 +41,7 @@ void check_against_reader(const std::string& path) {
     if (!trajectory->cut_short().empty()) return;
     positions = all_frames(*trajectory);
   } catch (const Error&) {
-    return;  // models of different sizes, which are not frames
+    return;  // Models of different sizes are not frames.
   }
   require(positions.size() == contents->atoms.size(), "the frames hold the atoms of the models");
   std::vector<std::vector<glm::dvec3>> models(contents->models);

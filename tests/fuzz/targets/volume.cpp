@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of volume maps of every format, and what is sampled of them.
+// Files of volume maps of every format, and samples of them.
 #include <algorithm>
 #include <cmath>
 

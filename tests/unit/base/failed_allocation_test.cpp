@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Objects that must end well if `new` gets no memory, wherever that happens.
+// Objects must end well if `new` gets no memory, at any allocation.
 #include <cstdlib>
 #include <filesystem>
 #include <new>
@@ -15,7 +15,7 @@
 
 namespace {
 
-int allocations_left = -1;  // after so many none succeeds; negative: all do
+int allocations_left = -1;  // number of allocations that succeed; negative: all do
 
 void* allocate(std::size_t size) {
   if (allocations_left == 0) throw std::bad_alloc();
@@ -40,7 +40,7 @@ namespace {
 using test::TemporaryFolder;
 using Names = std::vector<std::string>;
 
-/// Does it come to its end with so many allocations?
+/// Returns whether the work comes to its end with so many allocations.
 template <typename Work>
 bool ends_with(int allocations, const Work& work) {
   allocations_left = allocations;

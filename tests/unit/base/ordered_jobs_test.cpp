@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Jobs that are done at once give their results in the order in which they were begun.
+// Jobs that run at once give their results in the order in which they began.
 #include <atomic>
 #include <chrono>
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matrices of cameras against the rays of their pixels.
+// Matrices of cameras agree with the rays of their pixels.
 #include "core/camera/camera.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cameras that move: through their keys, smoothly, around, along; and frames that hold every moment of a run.
+// Cameras that move: through their keys, smoothly, around, along; and frames that show every moment of a run.
 #include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
 
@@ -44,7 +44,7 @@ TEST(CameraPath, GoesThroughItsKeysAndStaysAtItsEnds) {
   for (const CameraKey& key : four_keys()) expect_same_view(path.at(key.frame), key.camera, 1e-12);
   expect_same_view(path.at(-5.0), four_keys().front().camera, 1e-12);
   expect_same_view(path.at(1e9), four_keys().back().camera, 1e-12);
-  for (const double frame : {10.0, 40.0})  // from both sides
+  for (const double frame : {10.0, 40.0})  // Both sides are tried.
     for (const double step : {-1e-7, 1e-7}) expect_same_view(path.at(frame + step), path.at(frame), 1e-4);
 }
 
@@ -60,7 +60,7 @@ TEST(CameraPath, HasNoKinks) {
 }
 
 TEST(CameraPath, ZoomKeepsItsPace) {
-  // Twice as far every ten frames: a steady zoom has a constant ratio, not a constant speed.
+  // The distance doubles every ten frames: a steady zoom has a constant ratio, not a constant speed.
   std::vector<CameraKey> keys;
   for (int n = 0; n < 4; ++n)
     keys.push_back({10.0 * n, camera({0, 0, 10.0 * std::pow(2.0, n)}, {0, 0, 0}, {0, 1, 0}, 30)});
@@ -70,7 +70,7 @@ TEST(CameraPath, ZoomKeepsItsPace) {
 }
 
 TEST(CameraPath, TurningKeepsItsPace) {
-  // A twelfth of a turn every ten frames: the angle grows with the frame, between the keys too.
+  // The camera makes a twelfth of a turn every ten frames: the angle grows with the frame, between the keys too.
   const Camera start = camera({0, 0, 50}, {0, 0, 0}, {0, 1, 0}, 30);
   std::vector<CameraKey> keys;
   for (int n = 0; n < 5; ++n)

@@ -106,7 +106,7 @@ TEST(Camera, BasisIsRightHandedAndOrthonormal) {
   }
 }
 
-/// Lowest distance of any ball's rim from the four planes through the picture's edges, in Å; negative: cut off.
+/// Returns the least distance of any ball's rim from the planes through the picture's edges, in Å; negative: cut off.
 double clearance(const Surface& surface, const Camera& camera, double aspect) {
   const ViewBasis basis = view_basis(camera);
   const glm::dvec2 half = half_extent(camera, aspect);

@@ -17,7 +17,7 @@ namespace {
 
 using Balls = std::vector<Ball>;
 
-/// Looks along -z at the origin.
+/// Returns a camera that looks along -z at the origin.
 Camera camera_at(double z, Projection projection = Projection::orthographic) {
   Camera camera;
   camera.position = {0.0, 0.0, z};
@@ -26,7 +26,7 @@ Camera camera_at(double z, Projection projection = Projection::orthographic) {
   return camera;
 }
 
-/// Balls close together at this height, but for those nearer to the line x = y = 0 than `hole`.
+/// Adds balls close together at this height, but for those nearer to the line x = y = 0 than `hole`.
 void add_wall(Balls& balls, double z, double hole = 0.0) {
   for (int x = -8; x <= 8; ++x)
     for (int y = -8; y <= 8; ++y)
@@ -70,7 +70,7 @@ TEST(OpenDepth, DoesNotCutWhatIsToBeSeen) {
   const double between = -(4.0 - 1.7);
   EXPECT_NEAR(open_depth(seen, all, camera_at(60.0)).depth, between, 0.6);
   all.insert(all.end(), seen.begin(), seen.end());
-  for (Ball& ball : all) ball.radius += 0.5;  // another kind of surface of the same atoms
+  for (Ball& ball : all) ball.radius += 0.5;  // The balls are another kind of surface of the same atoms.
   const OpenDepth open = open_depth(seen, all, camera_at(60.0));
   EXPECT_DOUBLE_EQ(open.depth, -(6.0 + 2.2));
   EXPECT_TRUE(open.is_limited);
@@ -85,7 +85,7 @@ TEST(OpenDepth, IgnoresWhatIsBehindTheCamera) {
     EXPECT_EQ(open_depth(seen, all, camera_at(60.0, projection)).seen, 1.0);
 }
 
-/// The axes of a view along -z, and its balls with their groups: a wall, and balls behind it.
+/// The axes of a view along -z, and balls with their groups: a wall, and balls behind it.
 struct Walled {
   const ViewBasis view{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
   Balls balls;
@@ -107,7 +107,7 @@ struct Walled {
 TEST(ShowsMoreBehind, OfWhatAWallHides) {
   Walled walled;
   EXPECT_TRUE(walled.shows_more_behind());
-  walled.add(6.0, 2);  // as much is now in front of the wall
+  walled.add(6.0, 2);  // As much is now in front of the wall.
   EXPECT_FALSE(walled.shows_more_behind());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sides, turns, axes of assemblies, cameras of other programs, and what a camera is certain not to see.
+// Sides, turns, axes of assemblies, cameras of other programs, and balls that a camera certainly does not see.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,7 +17,7 @@
 namespace meniscus {
 namespace {
 
-// Longest along x + y, then z, shortest along x - y.
+// The balls are longest along x + y, then z, and shortest along x - y.
 const std::vector<Ball> kLong{{{-8, -8, 0}, 1}, {{8, 8, 0}, 1},  {{0, 0, 4}, 1}, {{0, 0, -4}, 1},
                               {{1, -1, 0}, 1},  {{-1, 1, 0}, 1}, {{3, 3, 1}, 1}};
 
@@ -38,7 +38,7 @@ ViewBasis side(const char* name, const std::optional<glm::dvec3>& symmetry = {})
 
 TEST(ViewDirection, FacesWhatItNames) {
   for (const std::string& word : view_direction_words()) {
-    if (word.ends_with("channel")) continue;  // these have none
+    if (word.ends_with("channel")) continue;  // These have no channel.
     const ViewBasis basis = side(word.c_str(), glm::dvec3(0.6, 0.0, 0.8));
     expect_near(glm::cross(basis.right, basis.up), -basis.forward);
     EXPECT_NEAR(glm::length(basis.up), 1.0, 1e-12) << word;
@@ -71,7 +71,7 @@ TEST(ViewDirection, FacesWhatItNames) {
   expect_near(side("symmetry-side", glm::dvec3(0, 0.6, 0.8)).up, {0, 0.6, 0.8});
 }
 
-// Balls on a sphere of radius 9 about one in the middle, but for a hole.
+// Balls lie on a sphere of radius 9 about one in the middle, but for a hole.
 TEST(ViewDirection, OpenLooksThroughTheHole) {
   const std::vector<Ball> seen{{{0.5, 0, 0}, 1.7}, {{-0.5, 0, 0}, 1.7}};
   for (const glm::dvec3& hole : {glm::dvec3(0.6, 0.0, 0.8), glm::dvec3(0, -1, 0), glm::dvec3(-0.48, 0.6, -0.64)}) {
@@ -98,7 +98,7 @@ TEST(ViewDirection, OpenLooksThroughTheThinnestWall) {
   EXPECT_GT(glm::dot(-view_basis(parse_view_direction("open").value(), {all, seen, {}}).forward, thin), 0.9);
 }
 
-/// A tube of rings of balls along the axis, through the middle; its inside is `width` wide.
+/// Returns a tube of rings of balls along the axis, through the middle; its inside is `width` wide.
 std::vector<Ball> tube(const glm::dvec3& axis, double length, double width) {
   const glm::dvec3 u = glm::normalize(glm::cross(axis, glm::dvec3(0.3, -0.2, 0.9))), v = glm::cross(axis, u);
   const double radius = 0.5 * width + 2.0;
@@ -132,7 +132,7 @@ TEST(ViewDirection, ChannelIsTheWidestOrThatOfTheAtomsNamed) {
   const ViewDirection channel = parse_view_direction("channel").value();
   EXPECT_GT(std::abs(view_basis(channel, {all, all, {}}).forward.x), std::cos(0.03));
   EXPECT_GT(std::abs(view_basis(channel, {all, narrow, {}}).forward.z), std::cos(0.03));
-  // What is in the way counts, too, wherever it is.
+  // Balls in the way count, too, at any distance.
   all.push_back({{0, 40, 60}, 10.0});
   EXPECT_THROW(view_basis(channel, {all, narrow, {}}), RequestError);
   const std::vector<Ball> one{{{0, 0, 0}, 5.0}};
@@ -147,13 +147,13 @@ TEST(ViewDirection, KnowsNoOtherWords) {
 TEST(Turns, AreRightHandedAboutThePicturesAxes) {
   const ViewBasis usual{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
   const auto after = [&](std::vector<Turn> turns) { return turned(usual, turns); };
-  // y90 brings to the right what was in front: z.
+  // y90 brings the front, z, to the right.
   expect_near(after({{1, 90.0}}).right, {0, 0, 1});
-  // x90 brings to the front what was above: y.
+  // x90 brings the upper side, y, to the front.
   expect_near(after({{0, 90.0}}).forward, {0, -1, 0});
-  // z90 brings upwards what was at the right: x.
+  // z90 brings the right side, x, upwards.
   expect_near(after({{2, 90.0}}).up, {1, 0, 0});
-  // One after another: Rx(-30) Ry(90), whose transpose has the axes of the picture as columns.
+  // One turn follows another: Rx(-30) Ry(90), whose transpose has the axes of the picture as columns.
   const glm::dmat3 both = glm::transpose(rotation({1, 0, 0}, -30.0) * rotation({0, 1, 0}, 90.0));
   const ViewBasis turns = after({{1, 90.0}, {0, -30.0}});
   expect_near(turns.right, both[0]);
@@ -274,7 +274,7 @@ TEST(ViewRequests, FrameWhatIsAskedFor) {
   const Camera turned_camera = view_camera(request, {}, {kLong, kLong, {}});
   EXPECT_FALSE(sees_nothing(turned_camera, request.aspect(), kLong, 0.0));
   EXPECT_GT(glm::length(view_basis(turned_camera).forward - view_basis(all).forward), 0.5);
-  // Near the pocket, from the given side.
+  // The camera is near the pocket, on the given side.
   Camera given;
   given.position = {0, 0, 100};
   request.turns.clear();
@@ -308,7 +308,7 @@ TEST(SeesNothing, OnlyWhereThatIsCertain) {
     EXPECT_FALSE(blind({0, 0, 20}, 11));
     EXPECT_TRUE(blind({0, 12, 0}, 1));
     EXPECT_FALSE(blind({0, 12, 0}, 1, 1.5));
-    EXPECT_FALSE(blind({12, 0, 0}, 1));  // the picture is wide
+    EXPECT_FALSE(blind({12, 0, 0}, 1));  // The picture is wide.
     EXPECT_TRUE(blind({25, 0, 0}, 1));
     // The nearest of the four sides is met under an angle.
     EXPECT_EQ(blind({0, 11.2, 0}, 1), projection == Projection::orthographic);

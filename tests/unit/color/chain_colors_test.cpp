@@ -17,8 +17,8 @@
 namespace meniscus {
 namespace {
 
-/// Normal vision, protanopia, deuteranopia and tritanopia, for linear light, row by row: G. M. Machado, M. M. Oliveira
-/// and L. A. F. Fernandes, IEEE Trans. Vis. Comput. Graph. 15, 1291 (2009), severity 1.
+/// Matrices of normal vision, protanopia, deuteranopia and tritanopia, for linear light, row by row: G. M. Machado, M.
+/// M. Oliveira and L. A. F. Fernandes, IEEE Trans. Vis. Comput. Graph. 15, 1291 (2009), severity 1.
 constexpr std::array<std::array<glm::dvec3, 3>, 4> kVisions{
     {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
      {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},

@@ -19,8 +19,8 @@ namespace {
 
 using By = ColorScheme::By;
 
-/// Atoms that differ in all that schemes colour by, some of which lack a number: two residues of amino acids in each of
-/// three chains, two of them copies, a sugar, and an atom of unknown element.
+/// Returns atoms that differ in all that schemes colour by, some without a number: two residues of amino acids in each
+/// of three chains, two of them copies, a sugar, and an atom of unknown element.
 Structure many_atoms() {
   Structure structure;
   structure.file = "many.pdb";
@@ -53,7 +53,7 @@ Structure many_atoms() {
   return structure;
 }
 
-/// With numbers where a scheme needs some of a file, a surface or a run.
+/// Returns a scheme, with numbers if it needs those of a file, a surface or a run.
 ColorScheme ready(const ColorSchemeMetadata& about, const Structure& structure) {
   ColorScheme scheme = parse_color_scheme(about.word).value();
   NumberFile numbers{.path = "numbers"};
@@ -62,7 +62,7 @@ ColorScheme ready(const ColorSchemeMetadata& about, const Structure& structure) 
   return scheme;
 }
 
-/// Of schemes that colour atoms by more than patches, parts and points.
+/// Returns schemes that colour atoms by more than patches, parts and points.
 std::vector<ColorScheme> schemes_of_atoms(const Structure& structure) {
   std::vector<ColorScheme> schemes{parse_color_scheme("#123456").value()};
   for (const ColorSchemeMetadata& about : color_schemes())
@@ -71,7 +71,7 @@ std::vector<ColorScheme> schemes_of_atoms(const Structure& structure) {
   return schemes;
 }
 
-/// All colours that a legend of this key shows.
+/// Returns all colours that a legend of this key shows.
 std::vector<glm::vec3> explained(const ColorKey& key) {
   std::vector<glm::vec3> colors;
   for (const ColorKey* const part : key.parts()) {
@@ -88,7 +88,7 @@ bool has(const std::vector<glm::vec3>& colors, const glm::vec3& color) {
   return std::ranges::find(colors, color) != colors.end();
 }
 
-/// Both ways, for the atoms drawn.
+/// Checks legends both ways for the atoms drawn.
 void expect_true(const Structure& structure, const ColorScheme& scheme, const std::vector<bool>& drawn) {
   const ColorKey key = color_key(structure, scheme, {.atoms = drawn});
   const std::vector<glm::vec3> all = color_atoms(structure, scheme).atom, told = explained(key);
@@ -96,7 +96,7 @@ void expect_true(const Structure& structure, const ColorScheme& scheme, const st
   for (std::size_t a = 0; a < all.size(); ++a)
     if (drawn.empty() || drawn[a]) seen.push_back(all[a]);
   const bool one_color = std::ranges::all_of(seen, [&](const glm::vec3& color) { return color == seen.front(); });
-  if (told.empty() && one_color) return;  // there is nothing to explain
+  if (told.empty() && one_color) return;  // Such a picture needs no legend.
   for (const glm::vec3& color : seen) EXPECT_TRUE(has(told, color)) << hex_color(color) << " is drawn, not explained";
   for (const glm::vec3& color : told) EXPECT_TRUE(has(seen, color)) << hex_color(color) << " is explained, not drawn";
   for (const ColorKey* const part : key.parts())
@@ -142,7 +142,7 @@ TEST(ColorKey, RulesOfASchemeHaveItsTitleAndEntries) {
   EXPECT_EQ(names(with_bar), std::vector<std::string>{"other"});
   ASSERT_EQ(with_bar.others.size(), 1u);
   EXPECT_EQ(with_bar.others[0].scale->title, "B-factor");
-  // Names that mean two colours are told apart.
+  // Names with two colours are distinguished.
   ColorScheme twice = parse_color_scheme("element").value();
   twice.rules.push_back(named_color_rule("chain A=element-cpk:Alpha"));
   EXPECT_EQ(color_key(many_atoms(), twice).others.at(0).title, "element, Alpha");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours by numbers from files: of residues, tables and frames, with their gaps and faults.
+// Colours by numbers from files of residues, tables and frames, with their gaps and faults.
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -122,7 +122,7 @@ TEST(Colors, TablesOfAOneChainMoleculeNeedNoChain) {
     structure.atoms[a].residue_number = static_cast<std::int32_t>(a);
     structure.atoms[a].kind = AtomClass::polymer;
   }
-  structure.atoms[2].kind = AtomClass::ligand;  // in chain B
+  structure.atoms[2].kind = AtomClass::ligand;  // The atom belongs to chain B.
   ColorScheme wish = scheme("file");
   for (const char* text : {"resid,score\n0,1.5\n1,2\n2,9\n3,4\n", "position;score\n0;1,5\n1;2\n2;9\n3;4\n",
                            "resi score\n0 1.5\n1 2\n2 9\n3 4\n"}) {
@@ -182,7 +182,7 @@ TEST(Colors, NumbersOfFramesHaveOneScale) {
   EXPECT_NE(complaint([&] { categorical.set_numbers(table); }).find("--map categorical"), std::string::npos);
 }
 
-// A scheme whose numbers are measured over the frames keeps them when rules take others from a file.
+// A scheme with numbers measured over the frames keeps them when rules take others from a file.
 TEST(Colors, FluctuationsStayBesideNumbersOfAFile) {
   ColorScheme scheme;
   scheme.by = ColorScheme::By::rmsf;

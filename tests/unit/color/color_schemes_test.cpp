@@ -58,12 +58,12 @@ TEST(Colors, ChainsInOrderOfAppearanceDiffer) {
 TEST(Colors, AChainHasTheColourOfItsPlaceInTheFile) {
   Structure whole = four_atoms(), part = four_atoms();
   whole.chains = part.chains = {"Z", "B", "A"};
-  part.atoms.erase(part.atoms.begin() + 2);  // all of B
+  part.atoms.erase(part.atoms.begin() + 2);  // This removes all of B.
   EXPECT_EQ(colored("chain", whole).atom[0], chain_color(2));
   EXPECT_EQ(colored("chain", whole).atom[2], chain_color(1));
   EXPECT_EQ(colored("chain", part).atom[0], chain_color(2));
   EXPECT_EQ(colored("chain-okabe-ito", part).atom[0], categorical_color(2));
-  part.atoms[0].chain = "new";  // of no chain of the file
+  part.atoms[0].chain = "new";  // The file has no such chain.
   EXPECT_EQ(colored("chain", part).atom[0], chain_color(3));
   EXPECT_EQ(color_key(part, scheme("chain")).classes[0].color, chain_color(3));
   EXPECT_EQ(color_key(part, scheme("chain-okabe-ito")).classes[0].color, categorical_color(3));
@@ -71,7 +71,7 @@ TEST(Colors, AChainHasTheColourOfItsPlaceInTheFile) {
 
 TEST(Colors, AutoIsByChainForPolymersAndByElementForSmallMolecules) {
   Structure small = four_atoms(), protein = small, spheres = small;
-  protein.atoms[2].kind = protein.atoms[3].kind = AtomClass::polymer;  // of chains B and A
+  protein.atoms[2].kind = protein.atoms[3].kind = AtomClass::polymer;  // They belong to chains B and A.
   for (Atom& atom : spheres.atoms) atom.element = 0;
   EXPECT_EQ(colored("auto", small).atom, colored("element-cpk", small).atom);
   EXPECT_EQ(colored("auto", protein).atom, colored("chain", protein).atom);
@@ -122,7 +122,7 @@ TEST(Colors, CopiesOfAChainKeepItsColorUnlessCopiesAreColored) {
   Structure structure = four_atoms();
   structure.atoms[1].copy = 1;
   structure.atoms[1].chain = "A-2";
-  structure.atoms[3].chain = "A-2";  // a chain that the file itself calls so
+  structure.atoms[3].chain = "A-2";  // The file itself gives this name to a chain.
   const Coloring chain = colored("chain", structure), copy = colored("copy", structure);
   EXPECT_EQ(chain.atom[1], chain.atom[0]);
   EXPECT_NE(chain.atom[3], chain.atom[0]);
@@ -177,7 +177,7 @@ TEST(Colors, RulesPaintTheAtomsMeantAndTheLastCounts) {
   const std::vector<std::uint32_t> two{2, 0};
   EXPECT_EQ(color_object(four_atoms(), two, wish, 0).atom, (std::vector<glm::vec3>{blue, red}));
   const ColorKey key = color_key(four_atoms(), wish, {});
-  ASSERT_EQ(key.classes.size(), 2u);  // no atom has the colour of its chain
+  ASSERT_EQ(key.classes.size(), 2u);  // No atom has the colour of its chain.
   EXPECT_EQ(key.classes[0].name, "chain A");
   EXPECT_EQ(key.classes[1].name, "b >= 15");
   EXPECT_EQ(key.classes[1].color, blue);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Four atoms of two chains, and what the tests of colours ask of them.
+// Four atoms of two chains, and common functions for the tests of colours.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ inline Coloring colored(const char* word, const Structure& structure = four_atom
   return color_atoms(structure, scheme(word));
 }
 
-/// What `run` complains about.
+/// Returns the message of an error in `run`.
 template <class Run>
 std::string complaint(const Run& run) {
   try {

@@ -51,7 +51,7 @@ TEST(Lipophilicity, OfAminoAcidsIsThatOfRdkit) {
   }
   EXPECT_EQ(lipophilicity("ASP", "OD1"), lipophilicity("ASP", "OD2"));
   EXPECT_EQ(lipophilicity("HID", "NE2"), lipophilicity("HIS", "NE2"));
-  EXPECT_NEAR(lipophilicity("HIP", "ND1") + lipophilicity("HSP", "NE2"), -1.0145, 1e-9);  // of imidazolium
+  EXPECT_NEAR(lipophilicity("HIP", "ND1") + lipophilicity("HSP", "NE2"), -1.0145, 1e-9);  // the sum for imidazolium
   EXPECT_EQ(lipophilicity("HIP", "CD2"), lipophilicity("HIS", "CD2"));
   EXPECT_EQ(lipophilicity("CYM", "SG"), -0.0024);
   EXPECT_EQ(lipophilicity("LEU", "HD11"), 0.0);
@@ -60,7 +60,7 @@ TEST(Lipophilicity, OfAminoAcidsIsThatOfRdkit) {
     EXPECT_TRUE(std::isnan(lipophilicity(residue, name))) << residue << " " << name;
 }
 
-/// Adds atoms of one residue: "N CA C O", the first at x, the next 2.1 Å on; "O" and what follows it lies beside.
+/// Adds atoms of one residue: "N CA C O", the first at x, the next 2.1 Å on; "O" and all later ones lie next to them.
 void add_residue(Structure& structure, const char* chain, const char* residue, double x, const std::string& names) {
   const std::uint32_t number = structure.atoms.empty() ? 0 : structure.atoms.back().residue + 1;
   std::istringstream words(names);
@@ -80,7 +80,7 @@ void add_residue(Structure& structure, const char* chain, const char* residue, d
       atom.position = {x + (name == "N" || name == "CH3" ? 0.0 : name == "CA" ? 2.1 : 4.2), y, 0.0};
     } else if (name == "SG") {
       atom.position = {x + 2.1, y + 0.9, 2.5};
-    } else if (atom.element == 1) {  // at the nitrogen, or at OXT
+    } else if (atom.element == 1) {  // The hydrogen is at the nitrogen, or at OXT.
       atom.position = name == "HXT" ? glm::dvec3(x + 4.2, y + 2.1, 0.95) : glm::dvec3(x, y + 0.6, beside += 0.4);
     } else {
       const bool is_oxygen = name[0] == 'O';
@@ -106,8 +106,8 @@ TEST(Lipophilicity, EndsOfChainsAndDisulphidesAreFoundByPlaceAndBonds) {
   add_residue(s, "C", "CYS", kNext, "N H CA C O OXT HXT CB SG");
   add_residue(s, "D", "ACE", 0, "CH3 C O");
   add_residue(s, "D", "ALA", kNext, "N CA C OC1 OC2 CB");
-  add_residue(s, "E", "ALA", 0, "N H CA C O CB");  // its hydrogen says that a residue before it is not there
-  add_residue(s, "E", "ALA", 3 * kNext, "N CA C OT1 OT2 CB");  // after a gap
+  add_residue(s, "E", "ALA", 0, "N H CA C O CB");  // Its hydrogen shows that the residue before it is missing.
+  add_residue(s, "E", "ALA", 3 * kNext, "N CA C OT1 OT2 CB");  // The residue follows a gap.
   const std::vector<double> found = lipophilicities(s);
   const auto value = [&](std::uint32_t residue, const char* name) {
     for (std::size_t a = 0; a < s.atoms.size(); ++a)

@@ -32,7 +32,7 @@ Structure with_b_factors(const std::array<float, 4>& numbers) {
   return structure;
 }
 
-/// Four alpha carbons of residues 1 to 4 of label chain A, which the author calls X 11 to 14; B-factors of 99.
+/// Returns four alpha carbons of residues 1 to 4 of label chain A, with author's numbers X 11 to 14; B-factors of 99.
 std::string model_cif(const std::string& metrics) {
   std::string text =
       "data_m\n" + metrics +
@@ -78,9 +78,9 @@ TEST(Sugars, HaveTheColoursOfTheirSymbols) {
   const Structure structure = read_text("sugars.pdb", text);
   const std::vector<glm::vec3> colors = colored("snfg", structure).atom;
   EXPECT_EQ(colors[0], color_from_hex(0x0090bc));
-  EXPECT_EQ(colors[6], color_from_hex(0x0090bc));   // NAG is of one colour
+  EXPECT_EQ(colors[6], color_from_hex(0x0090bc));   // NAG has a single colour.
   EXPECT_EQ(colors[7], color_from_hex(0x0090bc));   // the ring of GCU
-  EXPECT_EQ(colors[13], color_from_hex(0xf5f5f5));  // beyond the ring: its white half
+  EXPECT_EQ(colors[13], color_from_hex(0xf5f5f5));  // The white half lies beyond the ring.
   EXPECT_EQ(colors[14], color_from_hex(0xb4b4b4));
   const ColorKey key = color_key(structure, scheme("snfg"), {});
   ASSERT_EQ(key.classes.size(), 4u);
@@ -162,7 +162,7 @@ TEST(SecondaryClasses, AreThoseThatOccurInTheirOrder) {
   structure.atoms[0].secondary = SecondaryStructure::coil;
   structure.atoms[1].secondary = SecondaryStructure::helix;
   structure.atoms[2].secondary = SecondaryStructure::coil;
-  structure.atoms[3].secondary = SecondaryStructure::coil;  // residue UNX
+  structure.atoms[3].secondary = SecondaryStructure::coil;  // It belongs to residue UNX.
   const ColorKey key = color_key(structure, scheme("secondary"), {});
   ASSERT_EQ(key.classes.size(), 3u);
   EXPECT_EQ(key.classes[0].name, "helix");
@@ -177,7 +177,7 @@ TEST(SecondaryClasses, AreThoseThatOccurInTheirOrder) {
   EXPECT_EQ(color_key(structure, scheme("secondary"), {}).classes[1].name, "strand");
 }
 
-/// Residues 0 to 3 of chain A, of which 3 is a ligand; 4 and 5 of chain B.
+/// Returns residues 0 to 3 of chain A, of which 3 is a ligand, and 4 and 5 of chain B.
 Structure two_chains() {
   Structure structure;
   structure.file = "two";
@@ -211,7 +211,7 @@ TEST(Rainbow, GoesFromTheFirstResidueOfEachChainToItsLast) {
   ColorScheme half = scheme("rainbow");
   half.range = {{0.0, 0.5}};
   EXPECT_EQ(color_scale(structure, half).ends[0], "") << "0.5 is no end of a chain";
-  // What is drawn beside the surface belongs to the same chain.
+  // Atoms outside of the surface belong to the same chain.
   structure.extra_atoms.push_back(structure.atoms[2]);
   structure.extra_atoms.back().residue = 9;
   EXPECT_NEAR(color_scale(structure, scheme("rainbow")).value[2], 2.0 / 3.0, 1e-12);

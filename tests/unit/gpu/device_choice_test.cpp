@@ -17,7 +17,7 @@ GlDevice nvidia(int egl_index, int cuda_index, const char* uuid, const char* pci
   return {egl_index, false, "/dev/dri/card", cuda_index, uuid, pci};
 }
 
-/// Two NVIDIA GPUs, not in CUDA's order, with one of another maker between, and Mesa's software.
+/// Returns two NVIDIA GPUs, not in CUDA's order, with one of another maker between, and Mesa's software.
 std::vector<GlDevice> workstation() {
   return {nvidia(0, 1, "GPU-11111111-aaaa-bbbb-cccc-000000000001", "0000:3b:00.0"),
           {1, false, "/dev/dri/card1", {}, "", "0000:00:02.0"},
@@ -25,7 +25,7 @@ std::vector<GlDevice> workstation() {
           {3, true, "EGL_MESA_device_software", {}, "", ""}};
 }
 
-/// Places in EGL's list, in the order they are tried; negative and less one where software is not an answer.
+/// Returns places in EGL's list, in the order of trial; a place is negative, less one, where software does not suffice.
 std::vector<int> tried(const DeviceChoice& choice, const std::vector<GlDevice>& devices) {
   std::vector<int> places;
   for (const DeviceAttempt& attempt : device_attempts(choice, devices))
@@ -67,11 +67,11 @@ TEST(DeviceChoice, SeesWhatCudaSees) {
     choice.cuda_visible = list;
     return tried(choice, workstation());
   };
-  EXPECT_EQ(seen("0,1"), (std::vector{-3, -1, -2}));  // CUDA's order; other makers' behind
+  EXPECT_EQ(seen("0,1"), (std::vector{-3, -1, -2}));  // CUDA's order comes first, other makers' devices follow.
   EXPECT_EQ(seen("1"), (std::vector{-1, -2}));
   EXPECT_EQ(seen("1", "gpu:0"), std::vector{-1});
   EXPECT_EQ(seen(" GPU-22222222 , 1"), (std::vector{-3, -1, -2}));
-  EXPECT_EQ(seen("1,-1,0"), (std::vector{-1, -2}));  // what follows a wrong entry does not count
+  EXPECT_EQ(seen("1,-1,0"), (std::vector{-1, -2}));  // Entries behind a wrong one do not count.
   EXPECT_EQ(seen("MIG-1c2d3e4f"), std::vector{-2});
   EXPECT_EQ(seen(""), std::vector{-2});
   EXPECT_EQ(seen("", "auto"), (std::vector{-2, 3}));

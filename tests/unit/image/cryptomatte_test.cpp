@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ids of names as Cryptomatte's specification and MurmurHash3's reference have them, and ranks of what a pixel shows.
+// Ids of names by Cryptomatte's specification and MurmurHash3's reference, and ranks of ids in a pixel.
 #include "core/image/cryptomatte.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace meniscus {
 namespace {
 
 TEST(Cryptomatte, HashesAsTheReferenceDoes) {
-  // Of smhasher's MurmurHash3_x86_32 with seed 0; the last two from section 1 of the specification.
+  // The values come from smhasher's MurmurHash3_x86_32 with seed 0; the last two from section 1 of the specification.
   EXPECT_EQ(murmur_hash(""), 0u);
   EXPECT_EQ(murmur_hash("hello"), 0x248bfa47u);
   EXPECT_EQ(murmur_hash("The quick brown fox jumps over the lazy dog"), 0x2e4ff723u);

@@ -47,7 +47,7 @@ void expect_equal(const Pair& a, const char* what) {
   EXPECT_TRUE(nan ? std::isnan(x) : bits(x) == bits(y)) << what << " as double: " << x << ", " << y;
 }
 
-/// Numbers of many kinds: short and long ones, neighbors of powers of two, equal and opposite ones.
+/// Draws numbers of many kinds: short and long ones, neighbors of powers of two, equal and opposite ones.
 class Numbers {
  public:
   Pair next() {

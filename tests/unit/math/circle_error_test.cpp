@@ -162,8 +162,8 @@ TEST(CircleErrors, SumToNoMoreThanTheBound) {
   EXPECT_GT(worst, 16.0) << "a smaller factor would do";
 }
 
-/// Random circles with a ball that all but touches each, where the decision hangs on the last bits: the largest error
-/// over its bound.
+/// Draws random circles with a ball that all but touches each, where the last bits decide, and returns the largest
+/// error over its bound.
 class RandomCircles {
  public:
   double worst_share(int count) {
@@ -188,7 +188,7 @@ class RandomCircles {
     const Vector3<double> d = axis * (radius * power(0.05, 4.0));
     const double w0 = radius * radius, w1 = dot(d, d) + w0 - 2 * h * std::sqrt(dot(d, d));
     if (w1 <= 0.0) return 0.0;
-    // A point of the circle, and a ball about q that touches the circle there or opposite.
+    // A ball about q touches the circle at this point or opposite.
     const Vector3<double> side = cross(axis, direction());
     const Vector3<double> point = axis * h + side * (radius / s / std::sqrt(dot(side, side)));
     const Vector3<double> q = axis * (radius * uniform(-1.5, 1.5)) + side * (radius * uniform(-1.5, 1.5));
@@ -203,7 +203,7 @@ class RandomCircles {
     const auto rough = sloppy::covered_half_plane(sloppy::circle_of_two_spheres({d.x, d.y, d.z}, w0, w1), w0,
                                                   {q.x, q.y, q.z}, sqrt(Sloppy(dot(q, q))), wq, kUnit);
     const auto true_circle = sharp::circle_of_two_spheres({d.x, d.y, d.z}, w0, w1);
-    if (true_circle.radius_squared < 65536 * kUnit * w0) return 0.0;  // in doubt anyway
+    if (true_circle.radius_squared < 65536 * kUnit * w0) return 0.0;  // Such circles are in doubt anyway.
     const auto truth = sharp::covered_half_plane(true_circle, w0, {q.x, q.y, q.z}, std::sqrt(dot(q, q)), wq, kUnit);
     const long double offset_error = std::abs(rough.offset.value() - truth.offset);
     const long double normal_error =

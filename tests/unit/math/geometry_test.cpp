@@ -35,7 +35,7 @@ class Random {
   std::normal_distribution<double> normal_;
 };
 
-/// Whether a pseudo-angle lies on the arc that runs counter-clockwise from begin to end.
+/// Returns whether a pseudo-angle lies on the arc that runs counter-clockwise from begin to end.
 bool on_arc(double begin, double end, double pseudo) { return pseudo_sweep(begin, pseudo) < pseudo_sweep(begin, end); }
 
 TEST(PseudoAngle, RisesWithTheAngleAndNamesItsDirection) {
@@ -112,10 +112,10 @@ TEST(ClipArc, LeavesWhatIsNotCovered) {
 
 struct PlacedProbe {
   double worst_gap;  ///< Å between the probe and the atoms it should touch
-  bool on_its_side;  ///< of the plane of the atoms
+  bool on_its_side;  ///< side of the atoms' plane
 };
 
-/// A probe over three atoms that are `off_line` Å from being in line.
+/// Places a probe over three atoms that are `off_line` Å from being in line.
 PlacedProbe place(double off_line, Random& random) {
   const glm::dvec3 along = glm::normalize(random.vector());
   const glm::dvec3 aside = glm::normalize(glm::cross(along, random.vector()));
@@ -165,7 +165,7 @@ TEST(ProbesInOnePlace, AreNearAndNotMirroredInThePlaneOfTheirAtoms) {
   EXPECT_FALSE(touches_atom({0, 0, 3}, 3 + 2e-6));
 }
 
-/// What the ball of `third` covers of the circle of two others, in pseudo-angles of the circle's frame.
+/// Returns the part of the circle of two balls that the ball of `third` covers, in pseudo-angles of the circle's frame.
 CoveredArc arc_covered(const std::array<glm::dvec3, 3>& centers, const std::array<double, 3>& radii, int i, int j,
                        int k, Circle& circle) {
   circle = circle_of_two_spheres(centers[j] - centers[i], radii[i] * radii[i], radii[j] * radii[j]);
@@ -175,7 +175,7 @@ CoveredArc arc_covered(const std::array<glm::dvec3, 3>& centers, const std::arra
 TEST(Triple, IsNamedAlikeByThePointWhereverAnArcEndsThere) {
   Random random(5);
   for (int n = 0; n < 200; ++n) {
-    // Three spheres through one point.
+    // The three spheres meet in one point.
     const std::array<glm::dvec3, 3> centers{2.0 * random.vector(), 2.0 * random.vector(), 2.0 * random.vector()};
     const glm::dvec3 point = random.vector();
     std::array<double, 3> radii{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Negative numbers that are listed eight at a time are those that a plain loop lists.
+// Listing negative numbers eight at a time gives the list of a plain loop.
 #include "core/math/vector_loops.h"
 
 #include <random>
@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-// Of lists of any length, whatever is behind their ends.
+// Lists have any length, and anything behind their ends.
 template <typename Number>
 void expect_plain_lists() {
   constexpr std::uint32_t kFirst = 70;

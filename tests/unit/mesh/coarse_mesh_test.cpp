@@ -15,7 +15,7 @@
 namespace meniscus::testing {
 namespace {
 
-/// The faces whose triangles have a vertex.
+/// Returns the faces whose triangles have a vertex.
 std::vector<std::set<std::uint32_t>> faces_at(const TriangleMesh& mesh) {
   std::vector<std::set<std::uint32_t>> faces(mesh.positions.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -23,7 +23,7 @@ std::vector<std::set<std::uint32_t>> faces_at(const TriangleMesh& mesh) {
   return faces;
 }
 
-/// Triangles that face away from the solvent at the point of the surface below their middle.
+/// Counts triangles that face away from the solvent at the point of the surface below their middle.
 std::size_t folded(const Surface& surface, const TriangleMesh& mesh) {
   const SurfaceWalk walk(surface);
   std::size_t count = 0;

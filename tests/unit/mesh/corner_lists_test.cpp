@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles at vertices, of manifolds and of others.
+// Triangles at vertices are listed for manifolds and for other meshes.
 #include "core/mesh/half_edges.h"
 
 #include <array>
@@ -32,7 +32,7 @@ TEST(CornerLists, TellWhetherTrianglesGoAroundAVertexOnce) {
   std::vector<Triangle> triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   for (const std::uint32_t v : {0u, 1u, 2u, 3u}) EXPECT_TRUE(once_around(triangles, v)) << v;
   EXPECT_FALSE(once_around(triangles, 4));
-  triangles.insert(triangles.end(), {{3, 5, 4}, {3, 4, 6}, {4, 5, 6}, {5, 3, 6}});  // another at the same tip
+  triangles.insert(triangles.end(), {{3, 5, 4}, {3, 4, 6}, {4, 5, 6}, {5, 3, 6}});  // Another solid shares the tip.
   EXPECT_FALSE(once_around(triangles, 3));
   EXPECT_TRUE(once_around(triangles, 0));
   std::vector<Triangle> fan{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};

@@ -38,7 +38,7 @@ void expect_same_topology(const Surface& surface, const TriangleMesh& mesh) {
   }
 }
 
-/// The smallest angle of each triangle, in degrees, ascending.
+/// Returns the smallest angle of each triangle, in degrees, ascending.
 std::vector<double> smallest_angles(const TriangleMesh& mesh) {
   std::vector<double> angles;
   for (const Triangle& t : mesh.triangles) {
@@ -125,7 +125,7 @@ TEST_P(EvenMeshOf, HasTheTopologyOfTheSurfaceAtAnyDensity) {
     const SurfaceDistance distance(surface);
     for (const glm::dvec3& x : even.mesh.positions) ASSERT_LT(std::abs(distance(x).distance), 1e-7);
     ASSERT_EQ(even.vertex_atom.size(), even.mesh.positions.size());
-    for (std::size_t v = 0; v < even.vertex_atom.size(); ++v) {  // what touches a probe there is no farther than others
+    for (std::size_t v = 0; v < even.vertex_atom.size(); ++v) {  // A vertex belongs to the nearest atom.
       const glm::dvec3 probe = even.mesh.positions[v] + c.probe * even.mesh.normals[v];
       const Ball& atom = surface.atoms[even.vertex_atom[v]];
       const bool smooth = std::none_of(even.mesh.sharp_edges.begin(), even.mesh.sharp_edges.end(),
@@ -150,7 +150,7 @@ void expect_coarse_mesh(const Surface& surface) {
 
 TEST_P(EvenMeshOf, BeginsWithFewTrianglesOfTheSameTopology) {
   const Case& c = GetParam();
-  if (c.probe > 0.0) expect_coarse_mesh(compute_surface_cpu(c.balls, c.probe));  // else patch-aligned meshes begin
+  if (c.probe > 0.0) expect_coarse_mesh(compute_surface_cpu(c.balls, c.probe));  // else meshes begin with patches
 }
 
 TEST(CoarseMesh, IsThatOfUbiquitinForSomeProbes) {
@@ -175,7 +175,7 @@ BaseMesh expect_contracted_mesh(const Surface& surface) {
     for (const std::uint32_t v : t) ++corners[v];
   for (std::uint32_t v = 0; v < corners.size(); ++v) {
     EXPECT_GE(corners[v], 3u) << "vertex " << v;
-    EXPECT_EQ(links.valence(v), corners[v]) << "vertex " << v;  // triangles go around it once
+    EXPECT_EQ(links.valence(v), corners[v]) << "vertex " << v;  // Triangles go around it once.
   }
   return base;
 }
@@ -199,7 +199,7 @@ TEST(ContractedMesh, HasTheTopologyOfTheSurfaceForSomeProbes) {
 TEST(ContractedMesh, HasAPointForMostContactFacesOfUbiquitin) {
   const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
   const BaseMesh base = expect_contracted_mesh(surface);
-  EXPECT_LT(base.mesh.triangles.size(), 5 * surface.concave.size());  // of the reduced surface it is one each
+  EXPECT_LT(base.mesh.triangles.size(), 5 * surface.concave.size());  // The reduced surface has one triangle for each.
   std::vector<std::uint32_t> points(surface.faces.size(), 0);
   for (const std::uint32_t f : base.vertex_face) ++points[f];
   std::size_t contact = 0, single = 0;
@@ -329,7 +329,7 @@ TEST(EvenMesh, UbiquitinHasNoSlivers) {
             5e-5 * static_cast<double>(angles.size()) + 1);
 }
 
-/// The longest edge over the height on it, of the worst triangle.
+/// Returns the longest edge over the height on it, for the worst triangle.
 double worst_aspect(const TriangleMesh& mesh) {
   double worst = 0.0;
   for (const Triangle& t : mesh.triangles) {

@@ -13,7 +13,7 @@
 namespace meniscus::testing {
 namespace {
 
-/// The cap of a sphere around `axis`, its rim walked with the cap on the left as seen from the solvent.
+/// Returns the cap of a sphere around `axis`, its rim walked with the cap on the left as seen from the solvent.
 FaceOutline cap_outline(const glm::dvec3& center, double radius, const glm::dvec3& axis, bool inwards) {
   const glm::dvec3 x = glm::normalize(glm::cross(axis, glm::dvec3(0.3, 0.5, -0.8))), y = glm::cross(axis, x);
   FaceOutline outline;

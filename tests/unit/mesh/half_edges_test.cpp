@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Half-edges: every change leaves a closed mesh of the same topology, and what would not is seen before.
+// Half-edges: every change leaves a closed mesh of the same topology, and bad changes are seen before.
 #include "core/mesh/half_edges.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ const std::vector<Triangle>& tetrahedron() {
   static const std::vector<Triangle> triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   return triangles;
 }
-/// Tips 0 and 5.
+/// Returns an octahedron with tips 0 and 5.
 const std::vector<Triangle>& octahedron() {
   static const std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1},
                                                {5, 2, 1}, {5, 3, 2}, {5, 4, 3}, {5, 1, 4}};
@@ -94,7 +94,7 @@ TEST(HalfEdges, CollapseLeavesAClosedMesh) {
   expect_linked(links);
 }
 
-// Round the waist of a double pyramid with three sides: without an edge there the mesh would be pinched.
+// Without an edge round the waist of a double pyramid with three sides, the mesh would be pinched there.
 TEST(HalfEdges, AThirdCommonNeighbourKeepsAnEdge) {
   const HalfEdges links(std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {4, 2, 1}, {4, 3, 2}, {4, 1, 3}}, 5);
   EXPECT_FALSE(links.can_collapse(links.between(1, 2)));
@@ -128,13 +128,13 @@ TEST(HalfEdges, PutFirstTurnsATriangle) {
 
 TEST(HalfEdges, RefuseWhatIsNotClosed) {
   EXPECT_THROW(HalfEdges(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}}, 4), OpenSurfaceError);
-  std::vector<Triangle> two = tetrahedron();  // with an edge in common
+  std::vector<Triangle> two = tetrahedron();  // Two tetrahedra have an edge in common.
   two.insert(two.end(), {{0, 4, 1}, {0, 1, 5}, {1, 4, 5}, {4, 0, 5}});
   EXPECT_THROW(HalfEdges(two, 6), OpenSurfaceError);
 }
 
 TEST(HalfEdges, OfAPartAreLinkedAroundWholeVertices) {
-  std::vector<Triangle> part(octahedron().begin(), octahedron().begin() + 4);  // around 0
+  std::vector<Triangle> part(octahedron().begin(), octahedron().begin() + 4);  // The part lies around vertex 0.
   const HalfEdges links = HalfEdges::of_part(part, CornerLists(part, 6));
   EXPECT_EQ(links.valence(0), 4u);
   EXPECT_EQ(links.twin(1), kNone);  // from 1 to 2

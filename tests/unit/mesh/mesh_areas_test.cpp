@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-/// The largest difference of an atom's triangles to its exact area, Å².
+/// Returns the largest difference of an atom's triangles to its exact area, Å².
 double worst_atom(const Surface& surface, double tolerance) {
   const TriangleMesh mesh = tessellate(surface, {tolerance, true});
   std::vector<double> area(surface.atoms.size(), 0.0);

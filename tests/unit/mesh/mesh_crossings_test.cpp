@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles that pass through one another: all of a mesh, and those of a change that is watched.
+// Triangles that pass through one another are found in a whole mesh, and in a change that is watched.
 #include "core/mesh/mesh_crossings.h"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ TEST(MeshCrossings, AreFoundAtASharedVertex) {
   EXPECT_TRUE(crossing_triangles(y, std::vector<Triangle>{{0, 1, 2}, {0, 3, 4}}).empty());
 }
 
-// Of small and large triangles, which reach over many cells, each pair once and in ascending order.
+// Small and large triangles, which reach over many cells, give each pair once and in ascending order.
 TEST(MeshCrossings, AreThoseOfAllPairs) {
   std::vector<glm::dvec3> x;
   std::vector<Triangle> triangles;
@@ -67,7 +67,7 @@ TEST(MeshCrossings, AreThoseOfAllPairs) {
       if (triangles_cross(placed(a), placed(b))) expected.emplace_back(a, b);
   EXPECT_GT(expected.size(), 50u);
   EXPECT_EQ(crossing_triangles(x, triangles), expected);
-  const std::vector<std::uint32_t> some{3, 50, 51, 200};  // 50 is a large one
+  const std::vector<std::uint32_t> some{3, 50, 51, 200};  // Triangle 50 is large.
   std::erase_if(expected, [&](const auto& pair) {
     return std::ranges::find(some, pair.first) == some.end() && std::ranges::find(some, pair.second) == some.end();
   });
@@ -75,7 +75,7 @@ TEST(MeshCrossings, AreThoseOfAllPairs) {
   EXPECT_EQ(crossings_of(some, x, triangles), expected);
 }
 
-/// Two pyramids over `corners` points that go around an axis `turns` times; the tips are the last vertices.
+/// Returns two pyramids over `corners` points that go around an axis `turns` times; the tips are the last vertices.
 std::pair<std::vector<glm::dvec3>, std::vector<Triangle>> double_pyramid(std::uint32_t corners, std::uint32_t turns) {
   std::vector<glm::dvec3> x;
   std::vector<Triangle> triangles;
@@ -100,13 +100,13 @@ TEST(FlatFans, GoAroundOnceAndLookOneWay) {
   bent[7].z = 40.0;  // a needle
   EXPECT_EQ(flat(bent, triangles)[7], 0);
   bent = x;
-  bent[7].x = 3.0;  // beside its base
+  bent[7].x = 3.0;  // The tip is next to its base.
   EXPECT_EQ(flat(bent, triangles)[7], 0);
   const auto [star, twice] = double_pyramid(7, 2);
   EXPECT_EQ(flat(star, twice)[7], 0);
 }
 
-// Of a torus whose vertices are moved about more and more.
+// The vertices of a torus are moved about more and more.
 TEST(FlatFans, LeaveNoCrossingOut) {
   constexpr std::uint32_t kLong = 30, kShort = 14;
   std::vector<glm::dvec3> smooth;
@@ -153,11 +153,11 @@ TEST(CrossingGuard, CountsWhatPassesThroughWatchedTriangles) {
   guard.release();
   EXPECT_EQ(crossings(through, {}), 0u);
   guard.add(2);
-  guard.add(2);  // listed twice, counted once
+  guard.add(2);  // The triangle is listed twice, counted once.
   EXPECT_EQ(crossings(through, {}), 1u);
   const std::array<PlacedTriangle, 2> both{
       through, PlacedTriangle{{10, 11, 12}, {{{-0.5, -0.6, 0.5}, {-0.62, -0.5, 0.4}, {-0.6, -0.5, 0.6}}}}};
-  EXPECT_EQ(guard.crossings(both, std::vector<std::uint32_t>{2}), 1u);  // each other
+  EXPECT_EQ(guard.crossings(both, std::vector<std::uint32_t>{2}), 1u);  // They cross each other.
 }
 
 TEST(CrossingGuard, WatchesVerticesInBallsForGood) {

@@ -35,8 +35,8 @@ void expect_closed_with_topology(const Surface& surface, const TriangleMesh& mes
   }
 }
 
-/// Vertices and random points of triangles against the oracle, which knows only the balls. It is asked a little beside
-/// the vertices: exactly on the axis of a circle no point of the circle is nearest.
+/// Checks vertices and random points of triangles with the oracle, which knows only the balls. Points lie a little next
+/// to the vertices: exactly on the axis of a circle no point of the circle is nearest.
 void expect_on_surface(const Balls& balls, double probe, const TriangleMesh& mesh) {
   const glm::dvec3 beside(2e-8, -1e-8, 3e-8);
   const SphereTracer oracle(balls, probe, mesh.tolerance + 0.05);
@@ -56,7 +56,7 @@ void expect_on_surface(const Balls& balls, double probe, const TriangleMesh& mes
   }
 }
 
-/// Every corner's normal is that of its face's sphere or torus, and agrees with the triangle's orientation.
+/// Checks that every corner's normal is its face's sphere's or torus's, and agrees with the triangle's orientation.
 void expect_exact_normals(const Surface& surface, const TriangleMesh& mesh) {
   std::size_t sharp = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -85,7 +85,7 @@ void expect_exact_normals(const Surface& surface, const TriangleMesh& mesh) {
   EXPECT_EQ(sharp, mesh.sharp_corners.size());
 }
 
-/// No triangle reaches over a line where the nearest contact changes.
+/// Checks that no triangle reaches over a line where the nearest contact changes.
 void expect_crisp_colors(const Surface& surface, const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (mesh.kind[t] != PatchKind::concave) continue;

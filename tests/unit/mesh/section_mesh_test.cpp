@@ -20,7 +20,7 @@
 namespace meniscus::testing {
 namespace {
 
-/// Each atom a part of its own.
+/// Makes each atom a part of its own.
 CapAtoms every_atom(const Surface& surface) {
   std::vector<std::uint32_t> part(surface.atoms.size());
   for (std::uint32_t a = 0; a < part.size(); ++a) part[a] = a;
@@ -41,7 +41,8 @@ double area(const CapMesh& caps, std::uint32_t plane = kNone) {
   return sum;
 }
 
-/// The share of the caps' area whose triangles have their middles in the solvent: chords along rims, no more.
+/// Returns the share of the caps' area whose triangles have their middles in the solvent: only chords along rims cause
+/// any.
 double share_in_solvent(const CapMesh& caps, const Surface& surface) {
   double wrong = 0.0;
   for (std::size_t n = 0; n < caps.triangles.size(); ++n) {
@@ -53,7 +54,7 @@ double share_in_solvent(const CapMesh& caps, const Surface& surface) {
   return wrong / area(caps);
 }
 
-/// Surface and caps as the one mesh that they are.
+/// Returns surface and caps as one mesh.
 TriangleMesh joined(const CutMesh& cut) {
   TriangleMesh mesh = cut.surface;
   std::vector<std::uint32_t> place;
@@ -76,7 +77,7 @@ TEST(SectionMesh, OfABallIsADisk) {
   for (const double tolerance : {0.02, 0.002}) {
     const CutMesh cut = cut_mesh(tessellate(surface, {tolerance, true}), {&plane, 1}, one_part(surface));
     const double error = exact - area(cut.caps);
-    EXPECT_GT(error, 0.0);  // chords of a circle
+    EXPECT_GT(error, 0.0);  // Chords of a circle lose area.
     EXPECT_LT(error, 2.0 * kPi * 2.0 * tolerance / 0.8);
     EXPECT_LT(error, before);
     before = error;
@@ -199,7 +200,7 @@ TEST(SectionMesh, TrianglesHaveTheNearestAtom) {
   EXPECT_LT(farthest, 0.15);
 }
 
-// Of two equal balls the border is the plane between them: closed form of the disk's halves.
+// The border of two equal balls is the plane between them: the disk's halves have a closed form.
 TEST(SectionMesh, PartsMeetWhereTheyAreEquallyNear) {
   const Surface surface = compute_surface_cpu(two_atoms(1.5), 1.4);
   const ClipPlane plane{{0.0, 0.0, 1.0}, 0.2};

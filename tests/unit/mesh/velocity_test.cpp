@@ -18,7 +18,7 @@
 namespace meniscus::testing {
 namespace {
 
-constexpr double kMoment = 1e-6;  // frames
+constexpr double kMoment = 1e-6;  // in frames
 
 using Velocities = std::vector<glm::dvec3>;
 
@@ -88,7 +88,7 @@ void expect_agreement(const Balls& balls, double probe = kWater) {
   EXPECT_GT(found.smooth, 100u);
   EXPECT_EQ(found.wrong, 0u) << "of " << found.smooth;
   EXPECT_LE(found.sharp_wrong, found.sharp / 20) << "of " << found.sharp;
-  EXPECT_GT(agreement(balls, probe, 0.1, 1.01).wrong, found.smooth / 2);  // the comparison can fail
+  EXPECT_GT(agreement(balls, probe, 0.1, 1.01).wrong, found.smooth / 2);  // The comparison can fail.
 }
 
 TEST(SurfaceVelocity, OfARing) { expect_agreement(two_atoms(3.6, 1.7, 1.5)); }
@@ -141,7 +141,7 @@ TEST(SurfaceVelocity, RollingProbesEndAsTheFixedOnesMove) {
     for (const std::uint32_t probe : surface.toroidal[n].probe) {
       if (probe == kNone) continue;
       const glm::dvec3 fixed = velocity.of_probe(probe);
-      if (glm::length(fixed) > 1.0) continue;  // perhaps held back
+      if (glm::length(fixed) > 1.0) continue;  // The probe may be held back.
       EXPECT_LT(glm::distance(velocity.of_rolling_probe(n, surface.concave[probe].center), fixed), 1e-6) << n;
       ++ends;
     }

@@ -74,7 +74,7 @@ TEST(Weld, LongerEdgesStay) {
   EXPECT_EQ(mesh.positions.size(), 7u);
 }
 
-// A tetrahedron has no edge that could go: what is left would be two triangles back to back.
+// A tetrahedron has no edge that could go: two triangles back to back would remain.
 TEST(Weld, ATetrahedronStays) {
   TriangleMesh mesh =
       mesh_of({{0, 0, 0}, {0.0001, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
@@ -83,7 +83,7 @@ TEST(Weld, ATetrahedronStays) {
   EXPECT_EQ(euler_if_closed(mesh), 2);
 }
 
-// Round the neck of a double pyramid with three sides: without one of its edges it would be pinched there.
+// The neck of a double pyramid with three sides would be pinched without one of its edges.
 TEST(Weld, ANeckStays) {
   TriangleMesh mesh = mesh_of({{0, 0, 1}, {0.0002, 0, 0}, {0, 0.0002, 0}, {-1, -1, 0}, {0, 0, -1}},
                               {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 4}, {3, 2, 4}, {1, 3, 4}});
@@ -92,12 +92,12 @@ TEST(Weld, ANeckStays) {
   EXPECT_EQ(euler_if_closed(mesh), 2);
 }
 
-// With a fin of one tip, vertex 7, so far from the edge.
+// The fin has one tip, vertex 7, so far from the edge.
 TriangleMesh octahedron_with_a_fin(double length) {
   const double out = 0.5 + length / std::sqrt(2.0);
   TriangleMesh mesh = octahedron_with_a_double_corner(0.0004, {{0, out, out}});
   mesh.sharp_edges = {{0, 7}, {2, 7}, {3, 4}};
-  mesh.sharp_corners = {5, 13};  // of triangle 1, at the tip, and of triangle 4
+  mesh.sharp_corners = {5, 13};  // The corners belong to triangle 1, at the tip, and to triangle 4.
   mesh.sharp_corner_normals = {{1, 0, 0}, {0, 1, 0}};
   mesh.tolerance = 0.05;
   return mesh;
@@ -133,7 +133,7 @@ TEST(Weld, AFinOfSeveralTipsGoes) {
   }
 }
 
-// Without it the surface there would be farther from the mesh than the tolerance.
+// Without the fin the surface there would be farther from the mesh than the tolerance.
 TEST(Weld, AFinLongerThanTheToleranceStays) {
   TriangleMesh mesh = octahedron_with_a_fin(0.06);
   const Welding made = weld(mesh);
@@ -153,7 +153,7 @@ TEST(Weld, PointsThatAreOneInTheNumbersOfAFileAreJoined) {
   mesh.positions[6] += glm::dvec3(0.00095, 0.00045, 0.0);
   ASSERT_GT(glm::distance(mesh.positions[0], mesh.positions[6]), 0.001);
   std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles;
-  EXPECT_EQ(weld_short_edges(mesh.positions, triangles, 0.001).joined, 0u);  // numbers as they are
+  EXPECT_EQ(weld_short_edges(mesh.positions, triangles, 0.001).joined, 0u);  // Numbers are not rounded.
   EXPECT_EQ(weld(mesh).joined, 1u);
 }
 

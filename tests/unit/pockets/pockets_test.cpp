@@ -48,7 +48,7 @@ double total_excess(const Pockets& found) {
   return sum;
 }
 
-/// Carbon atoms on a sphere, 1.5 Å apart, those above `top` left out.
+/// Returns carbon atoms on a sphere, 1.5 Å apart, without those above `top`.
 Balls shell(double radius, double top) {
   const auto count = static_cast<std::size_t>(4 * std::numbers::pi * radius * radius / 2.25);
   Balls balls;
@@ -59,7 +59,7 @@ Balls shell(double radius, double top) {
   return balls;
 }
 
-/// Rings of atoms around the z axis, so close together that nothing gets through the wall.
+/// Returns rings of atoms around the z axis, so close together that nothing gets through the wall.
 Balls tube(double radius, int rings) {
   Balls balls;
   const int around = static_cast<int>(std::ceil(2 * std::numbers::pi * radius / 1.5));
@@ -147,7 +147,7 @@ TEST(Pockets, AHoleIsAMouthAndTwoAreATunnel) {
   EXPECT_STREQ(tunnel.kind(), "tunnel");
   ASSERT_EQ(tunnel.mouth_areas.size(), 2u);
   EXPECT_NEAR(tunnel.mouth_areas[0], tunnel.mouth_areas[1], 0.02 * tunnel.mouth_areas[0]);
-  // Of the cylinder inside of the atoms' surfaces, 20.8 Å long, some 4 are lost at the mouths.
+  // Some 4 Å of the cylinder inside of the atoms' surfaces, which is 20.8 Å long, are lost at the mouths.
   const double section = std::numbers::pi * 3.3 * 3.3;
   EXPECT_GT(tunnel.cavity.volume, 14.0 * section);
   EXPECT_LT(tunnel.cavity.volume, 21.0 * 1.1 * section);
@@ -253,7 +253,7 @@ TEST(Pockets, GrowWithTheLargeProbeAndShrinkWithTrim) {
     hull = found.between_volume;
   }
   double wider = 1e9;
-  for (const double trim : {0.0, 1.0, 3.5}) {  // the last more than the atoms are thick
+  for (const double trim : {0.0, 1.0, 3.5}) {  // The last trim is larger than the atoms are thick.
     PocketRequest request = all_of_them();
     request.large_probe_radius = 5.0;
     request.trim = trim;

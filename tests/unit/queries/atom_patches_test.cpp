@@ -29,7 +29,7 @@ double sum_of(const std::vector<AtomPatch>& patches) {
                          [](double sum, const AtomPatch& patch) { return sum + patch.area; });
 }
 
-/// The same by a mesh whose triangles belong to one atom each: areas of what their edges join, the largest first.
+/// Returns the same areas by a mesh whose triangles belong to one atom each: joined by their edges, the largest first.
 /// Triangles of one re-entrant patch and atom count as joined.
 std::vector<double> by_mesh(const TriangleMesh& mesh, const Choice& chosen) {
   UnionFind joined(mesh.triangles.size());
@@ -68,7 +68,7 @@ TEST(AtomPatches, OfApartAtomsAreTwo) {
   const Surface apart = compute_surface_cpu(testing::two_atoms(9.0, 1.5, 1.7), testing::kWater);
   const std::vector<AtomPatch> two = atom_patches(apart, {true, true});
   ASSERT_EQ(two.size(), 2u);
-  EXPECT_EQ(two[0].atoms, std::vector<std::uint32_t>{1});  // the larger one
+  EXPECT_EQ(two[0].atoms, std::vector<std::uint32_t>{1});  // the larger atom
   EXPECT_NEAR(sum_of(two), apart.area, 1e-9);
   const Surface together = compute_surface_cpu(testing::two_atoms(3.0), testing::kWater);
   const std::vector<AtomPatch> one = atom_patches(together, {true, true});
@@ -78,7 +78,7 @@ TEST(AtomPatches, OfApartAtomsAreTwo) {
 }
 
 TEST(AtomPatches, EndWhereAtomsThatAreNotChosenBegin) {
-  // Of a row of three the ends are two patches, and a spindle parts even neighbours.
+  // The ends of a row of three are two patches, and a spindle parts even neighbours.
   const Surface row = compute_surface_cpu(testing::collinear(3, 2.5), testing::kWater);
   EXPECT_EQ(atom_patches(row, {true, false, true}).size(), 2u);
   EXPECT_EQ(atom_patches(row, {true, true, false}).size(), 1u);

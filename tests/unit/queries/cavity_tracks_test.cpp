@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cavities of cages, and what becomes of them from one frame to the next.
+// Cavities of cages, followed from one frame to the next.
 #include "core/queries/cavity_tracks.h"
 
 #include <string>
@@ -14,14 +14,14 @@
 namespace meniscus::testing {
 namespace {
 
-/// A cavity with probes at these places of the x axis.
+/// Makes a cavity with probes at these places of the x axis.
 Cavity cavity(std::vector<double> places, std::vector<std::uint32_t> atoms = {}) {
   Cavity result{1.0, 1.0, std::move(atoms), {}};
   for (const double x : places) result.probes.emplace_back(x, 0.0, 0.0);
   return result;
 }
 
-/// "1 born, 2 split 1 -> #0": what became of whom.
+/// Returns the fates of cavities in the form "1 born, 2 split 1 -> #0".
 std::string told(const std::vector<CavityStep>& steps) {
   std::string text;
   for (const CavityStep& step : steps) {
@@ -44,7 +44,7 @@ TEST(CavityTracks, ACageHasOne) {
   ASSERT_EQ(surface.components.size(), 2u);
   EXPECT_EQ(cavities[0].area, surface.components[1].area);
   EXPECT_EQ(cavities[0].volume, -surface.components[1].volume);
-  EXPECT_GT(cavities[0].volume, 4.18879 * kWater * kWater * kWater);  // a probe fits
+  EXPECT_GT(cavities[0].volume, 4.18879 * kWater * kWater * kWater);  // A probe fits.
   EXPECT_TRUE(cavities_of(compute_surface_cpu(ring(6, 1.4), kWater)).empty());
 }
 
@@ -57,9 +57,9 @@ TEST(CavityTracks, TwoCagesSwapPlacesInTheTableButNotTheirNumbers) {
     return compute_surface_cpu(both, kWater);
   };
   CavityTracks tracks(kWater);
-  EXPECT_EQ(told(tracks.follow(cavities_of(surface_of(1.0)))), "1 born #0, 2 born #1");  // the larger first
+  EXPECT_EQ(told(tracks.follow(cavities_of(surface_of(1.0)))), "1 born #0, 2 born #1");  // The larger one comes first.
   EXPECT_EQ(told(tracks.follow(cavities_of(surface_of(1.25)))), "1 kept #1, 2 kept #0");
-  EXPECT_EQ(told(tracks.follow(cavities_of(surface_of(0.85)))), "1 kept #0, 2 closed");  // no probe fits any more
+  EXPECT_EQ(told(tracks.follow(cavities_of(surface_of(0.85)))), "1 kept #0, 2 closed");  // No probe fits any more.
   EXPECT_EQ(told(tracks.follow(cavities_of(surface_of(1.0)))), "1 kept #0, 3 born #1");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces put together are what one computation of all their atoms gives, and copies are where they are put.
+// Surfaces put together equal one computation of all their atoms, and copies are in their places.
 #include "core/queries/copies.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ Balls moved(const Balls& balls, const RigidMotion& motion) {
   return result;
 }
 
-// Every index of the boundary representation leads to a row, and the rows belong together in space.
+// Checks that every index of the boundary representation leads to a row, and that rows belong together in space.
 void expect_consistent(const Surface& s) {
   constexpr double kSmall = 1e-9;
   for (std::uint32_t f = 0; f < s.faces.size(); ++f) {

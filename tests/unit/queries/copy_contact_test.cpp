@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The closest pair of balls in different copies, against all pairs.
+// The closest pair of balls in different copies is found as by all pairs.
 #include "core/queries/copies.h"
 #include "core/math/rigid_motion.h"
 
@@ -13,7 +13,7 @@
 namespace meniscus {
 namespace {
 
-const RigidMotion kHalfTurn{glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1), {0, 0, 0}};  // about z
+const RigidMotion kHalfTurn{glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1), {0, 0, 0}};  // a half turn about z
 
 TEST(CopyContact, OneProbeTouchesBothOrNot) {
   const std::vector<Ball> balls{{{5, 0, 0}, 1.5}};

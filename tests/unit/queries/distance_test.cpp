@@ -69,8 +69,8 @@ TEST(SurfaceDistance, OfASpindleIsThatToItsTip) {
   EXPECT_LT(distance({middle + 1.5 * tip, 0.0, 0.0}).distance, 0.0);
 }
 
-/// Where many points of a surface are equally near, all of them but for rounding: centres of atoms, of probes, of tori
-/// and of borders, points of their axes, vertices with the tips of spindles, and what is half-way between two such.
+/// Returns points for which many points of a surface are equally near but for rounding: centres of atoms, of probes, of
+/// tori and of borders, points of their axes, vertices with the tips of spindles, and midpoints between two such.
 std::vector<glm::dvec3> symmetric_points(const Surface& s) {
   std::vector<glm::dvec3> points;
   for (const Ball& atom : s.atoms) points.push_back(atom.center);
@@ -90,7 +90,7 @@ std::vector<glm::dvec3> symmetric_points(const Surface& s) {
   return points;
 }
 
-/// Just below the distance the surface is not within it, just above it is; and at it.
+/// Checks that the surface is within a limit exactly if its distance is at most the limit.
 void expect_within(const SurfaceDistance& distance, const glm::dvec3& point) {
   const double far = std::abs(distance(point).distance);
   for (const double limit : {0.01, 0.1, 0.5, 2.0, far, far * (1 - 1e-12), far * (1 + 1e-12), far + 1.0})
@@ -99,7 +99,7 @@ void expect_within(const SurfaceDistance& distance, const glm::dvec3& point) {
     }
 }
 
-/// Every foot is on the surface and as far away as the distance says, asked at these points and beside them.
+/// Checks that every foot is on the surface and as far away as the distance says, at these points and next to them.
 void expect_feet_on(const Surface& surface, const std::vector<glm::dvec3>& points) {
   const double p = surface.probe_radius;
   const SurfaceDistance distance(surface);
@@ -129,7 +129,7 @@ TEST(SurfaceDistance, OfSymmetricPointsHasFeetOnTheSurface) {
   }
 }
 
-// Turned, so that no axis is one of space: coordinates along them are rounded.
+// Atoms are turned, so that no axis is one of space: coordinates along them are rounded.
 TEST(SurfaceDistance, OfAFewBallsHasFeetOnTheSurface) {
   const double r = testing::kCarbon, p = testing::kWater;
   std::mt19937 random(9);
@@ -253,7 +253,7 @@ TEST(SurfaceDistance, OfBallsWithoutAProbe) {
     if (outside > 0.0) {
       EXPECT_NEAR(found, outside, 1e-9);
     } else {
-      EXPECT_LE(found, outside + 1e-9);  // at least as deep as in one ball
+      EXPECT_LE(found, outside + 1e-9);  // The point is at least as deep as in one ball.
     }
     solid += outside < 0.0;
   }

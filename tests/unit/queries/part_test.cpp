@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of a surface: closed, with tables that agree with each other; what lies in what; planes between faces.
+// Parts of a surface: closed, with tables that agree with each other; nested components; planes between faces.
 #include "core/queries/surface_parts.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 namespace meniscus::testing {
 namespace {
 
-// Patches with faces in several components.
+// Counts patches with faces in several components.
 std::size_t mixed_patches(const Surface& s) {
   std::size_t count = 0;
   const auto look = [&](const auto& patches) {
@@ -40,7 +40,7 @@ std::size_t mixed_patches(const Surface& s) {
   return count;
 }
 
-// Every border has its two faces, and areas and volumes measured again are those that came along.
+// Checks that every border has its two faces, and that areas and volumes measured again are the part's own.
 void expect_closed(Surface part) {
   for (const Border& border : part.borders)
     for (const std::uint32_t face : border.face) ASSERT_LT(face, part.faces.size());
@@ -61,7 +61,7 @@ void expect_closed(Surface part) {
   EXPECT_NEAR(atoms, before.area, 1e-9 * (1 + before.area));
 }
 
-// The planes of every patch leave what its faces measure: nothing of a face left behind, all of one that stayed.
+// Checks that the planes of every patch leave the area of its faces: nothing of a removed face, all of one that stayed.
 void expect_clipped(const Surface& part, int samples, std::mt19937& random) {
   for (const PatchKind kind : {PatchKind::convex, PatchKind::toroidal, PatchKind::concave})
     for (std::uint32_t patch = 0; patch < patch_count(part, kind); ++patch) {
@@ -138,7 +138,7 @@ TEST(Part, OnePieceOfASpindleIsADropAroundItsAtom) {
   }
 }
 
-// A cage and what lies in it, by the lattice's own symmetry: a shell of carbon atoms with one in the middle.
+// Returns a cage with a guest, by the lattice's own symmetry: a shell of carbon atoms with one in the middle.
 Balls cage_with_guest(double radius_of_guest) {
   Balls balls = c60(3.0);  // a wide cage: edges of 3 Å, 7.4 Å from the middle
   balls.push_back({glm::dvec3(0.0), radius_of_guest});
@@ -153,7 +153,7 @@ TEST(Cavities, AnIslandInACavityIsNotReachedFromOutside) {
   ASSERT_EQ(outer, 2u);
   const std::vector<bool> reached = reached_from_outside(s);
   EXPECT_EQ(std::count(reached.begin(), reached.end(), true), 1);
-  EXPECT_TRUE(reached[0]);  // the largest outer one comes first
+  EXPECT_TRUE(reached[0]);  // The largest outer component comes first.
   const SurfacePart outside = part_of(s, reached);
   EXPECT_EQ(outside.surface.components.size(), 1u);
   EXPECT_EQ(outside.surface.components[0].kind, ComponentKind::outer);
@@ -178,7 +178,7 @@ TEST(WindingNumber, TellsInsideFromOutsideInAnyDirection) {
   }
 }
 
-// Circles on the unit sphere around two axes, as faces of a made-up surface.
+// Returns circles on the unit sphere around two axes, as faces of a made-up surface.
 Surface two_caps(double angle_between, double radius_a, double radius_b) {
   Surface s;
   for (const auto& [turn, cap] : {std::pair{0.0, radius_a}, {angle_between, radius_b}}) {

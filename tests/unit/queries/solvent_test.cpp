@@ -32,7 +32,7 @@ TEST(Solvent, EveryPointIsOnTheSideTheOracleSays) {
       near_count += distance > 0.0 && distance < probe_radius;
     }
     EXPECT_GT(in_solvent_count, 2 * count / 15);
-    EXPECT_GT(near_count, count / 30);  // under SAS balls and yet outside the solid
+    EXPECT_GT(near_count, count / 30);  // Points are under SAS balls and yet outside the solid.
   }
 }
 

@@ -20,7 +20,7 @@
 namespace meniscus {
 namespace {
 
-/// Many small balls among large ones.
+/// Returns many small balls among large ones.
 std::vector<Ball> crowd_of_balls(std::mt19937& random) {
   std::uniform_real_distribution<double> place(0.0, 14.0), radius(0.3, 2.0);
   std::vector<Ball> balls;
@@ -28,7 +28,7 @@ std::vector<Ball> crowd_of_balls(std::mt19937& random) {
   return balls;
 }
 
-// Whether they move a little, together or apart, far, change their radii or their number.
+// Atoms move a little, together or apart, or far, or change their radii or their number.
 TEST(SwallowedAtoms, AreThoseOfEachFrameAnew) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> one(-1.0, 1.0);
@@ -52,7 +52,7 @@ TEST(SwallowedAtoms, AreThoseOfEachFrameAnew) {
   EXPECT_TRUE(kept.of({}).empty());
 }
 
-/// By all pairs, the highest atom first.
+/// Finds swallowed atoms by all pairs, large atoms first; protruding: the most by which one protrudes.
 std::vector<bool> swallowed_by_all_pairs(const std::vector<Ball>& balls, double& protruding) {
   std::vector<std::uint32_t> order(balls.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -72,7 +72,7 @@ std::vector<bool> swallowed_by_all_pairs(const std::vector<Ball>& balls, double&
   return swallowed;
 }
 
-// Balls in one place, almost in one place, within others, and in chains of which each is near the next only.
+// Balls lie in one place, almost in one place, within others, and in chains of which each is near the next only.
 TEST(SwallowedAtoms, AreThoseOfAllPairs) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> one(-1.0, 1.0);

@@ -17,7 +17,7 @@ namespace {
 
 double sphere_area(double r) { return 4 * std::numbers::pi * r * r; }
 
-// Gaps between SAS spheres from a touch to well beyond the growth that decisions see.
+// Returns gaps between SAS spheres from a touch to well beyond the growth that decisions see.
 std::vector<double> small_gaps() {
   std::vector<double> gaps{0, 1e-12, 1e-11, 1e-10, 1e-8, 1e-7};
   for (double gap = 1e-9; gap < 4.5e-9; gap += 0.1e-9) gaps.push_back(gap);
@@ -45,7 +45,7 @@ TEST(WholeSpheres, NearMissesOfTwoAtomsLoseNone) {
 TEST(WholeSpheres, NearMissesOfManyNeighborsLoseNone) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> gap(2e-9, 3.5e-9);
-  // Twelve spheres around one, and a chain of pairs: each pair meets, and nearly meets the next.
+  // Twelve spheres lie around one, and a chain consists of pairs: each pair meets, and nearly meets the next.
   for (int n = 0; n < 50; ++n) {
     Balls star{{{0, 0, 0}, kCarbon}};
     for (const double sign : {1.0, -1.0})
@@ -96,7 +96,7 @@ TEST(WholeSpheres, MissTheArcsOfAFreeCircle) {
   EXPECT_TRUE(with_arcs(pair, kWater, enumerate_reduced_surface(pair, kWater).arcs).lost_atoms.empty());
 }
 
-// Whatever arcs of an atom are taken away with all others that name it: some atom is lost, or the rest does not close.
+// All arcs of an atom and all others that name it are taken away: some atom is lost, or the rest does not close.
 TEST(WholeSpheres, MissAllArcsOfAMolecule) {
   for (const NamedBalls& molecule : degenerate_molecules()) {
     SCOPED_TRACE(molecule.name);

@@ -13,7 +13,7 @@
 namespace meniscus {
 namespace {
 
-/// Signed distance to the torus' tube in the half-plane of x, without the lemon: sqrt((rho - R)^2 + z^2) - p.
+/// Returns the distance to the torus tube in the half-plane of x, without the lemon: sqrt((rho - R)^2 + z^2) - p.
 double tube(const glm::dvec3& x, double major, double minor) {
   return std::hypot(std::hypot(x.x, x.y) - major, x.z) - minor;
 }
@@ -48,12 +48,12 @@ TEST(RayTorus, FindsExactlyTheSignChangesOfADenseScan) {
     root_count += hits.count;
     if (q.major < q.minor) spindle_root_count += hits.count;
   }
-  EXPECT_GT(root_count, 1000);  // the test has seen something, spindles too
+  EXPECT_GT(root_count, 1000);  // Enough roots were tested, spindles' too.
   EXPECT_GT(spindle_root_count, 300);
 }
 
 TEST(RayTorus, RespectsItsInterval) {
-  // Along x through a torus with R = 3, p = 1: roots at -4, -2, 2, 4.
+  // The ray along x through a torus with R = 3, p = 1 has roots at -4, -2, 2, 4.
   const glm::dvec3 o(0.0), d(1.0, 0.0, 0.0);
   const auto all = geometry::ray_torus(o, d, 3.0, 1.0, -10, 10, 1e-15);
   ASSERT_EQ(all.count, 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts by atoms: how they are written, whose atoms they go by, and where they are.
+// Cuts by atoms: their text, the atoms that they follow, and their places.
 #include "core/scene/cut.h"
 
 #include <string>
@@ -15,8 +15,8 @@
 namespace meniscus {
 namespace {
 
-/// A protein's atoms before and behind a ligand at the origin, seen along -z; the ligand is beside the surface or part
-/// of it.
+/// Returns a protein's atoms before and behind a ligand at the origin, seen along -z; the ligand is outside of the
+/// surface or part of it.
 Structure pocket(bool ligand_beside) {
   Structure structure;
   const auto add = [](std::vector<Atom>& atoms, const char* residue, const glm::dvec3& position) {
@@ -67,9 +67,9 @@ TEST(CutByAtoms, FacesTheViewer) {
     const Structure structure = pocket(beside);
     const ClipPlane through = plane_of("through resn LIG", structure), before = plane_of("before resn LIG", structure);
     for (const ClipPlane& plane : {through, before}) EXPECT_LT(glm::distance(plane.normal, {0, 0, 1}), 1e-12);
-    EXPECT_NEAR(through.offset, 0.5, 1e-12);  // the middle of its atoms
-    EXPECT_GT(before.offset, 3.7);            // none of them is cut
-    EXPECT_LT(before.offset, 8.3);            // the wall before them is gone
+    EXPECT_NEAR(through.offset, 0.5, 1e-12);  // It goes through the middle of the ligand's atoms.
+    EXPECT_GT(before.offset, 3.7);            // The plane cuts none of them.
+    EXPECT_LT(before.offset, 8.3);            // The wall before them is gone.
   }
 }
 
@@ -85,7 +85,7 @@ TEST(CutByAtoms, IsNotAboutWhatIsHidden) {
   const std::vector<Ball> shown = shown_balls(balls, coloring);
   EXPECT_EQ(shown.size(), 9u);
   const ClipPlane plane = clip_planes(cuts, cut_atoms(cuts, structure), {camera(), balls, shown}).front();
-  EXPECT_NEAR(plane.offset, -8.3, 1e-12);  // all that is shown stays
+  EXPECT_NEAR(plane.offset, -8.3, 1e-12);  // All shown atoms stay.
 }
 
 TEST(CutByAtoms, NeedsSome) {
@@ -103,7 +103,7 @@ TEST(CutByAtoms, NeedsSome) {
 
 TEST(CutByAtoms, SaysWhatItLeavesHidden) {
   Structure structure = pocket(false);
-  structure.atoms.back().position = {0.5, 0.0, 20.0};  // of the ligand, before the wall
+  structure.atoms.back().position = {0.5, 0.0, 20.0};  // This atom of the ligand is before the wall.
   const std::vector<Cut> cuts{parse_cut("before resn LIG")};
   std::vector<Ball> balls;
   for (const Atom& atom : structure.atoms) balls.push_back({atom.position, atom.radius});

@@ -31,7 +31,7 @@ Structure atoms(const std::string& text) {
   return read_structure(folder.file("atoms.xyzr", text));
 }
 
-/// Two slabs of atoms that touch in a plane, oblique in space: the left one below it, the right one above.
+/// Returns two slabs of atoms that touch in a plane, oblique in space: the left one below it, the right one above.
 Structure two_slabs(const glm::dvec3& normal) {
   Structure structure = atoms("0 0 0 1.7\n9 0 0 1.7\n");
   const Atom sample = structure.atoms.front();
@@ -58,7 +58,7 @@ TEST(BuriedArea, OfTwoSpheresIsTheirCaps) {
   const double plane = (distance * distance + near * near - far * far) / (2.0 * distance);
   EXPECT_NEAR(buried[0], 2.0 * std::numbers::pi * near * (near - plane), 1e-9);
   EXPECT_NEAR(buried[1], 2.0 * std::numbers::pi * far * (far - (distance - plane)), 1e-9);
-  // Of one group nothing is buried by itself.
+  // A single group buries nothing.
   const std::vector<AtomGroup> one{{"all", {0, 1}}};
   for (const double area : buried_areas(structure, one, computer, SurfaceKind::ses)) EXPECT_EQ(area, 0.0);
 }
@@ -85,7 +85,7 @@ TEST(OpenBook, ShowsBothSidesOfTheContact) {
         high = std::max(high, atom.position.y);
         left = std::min(left, atom.position.x - atom.radius);
         right = std::max(right, atom.position.x + atom.radius);
-        // Moved as a body: no mirror image, which four points out of a plane would tell.
+        // The side moves as a body, without the mirror image that four points out of a plane would show.
         for (const std::uint32_t b : groups[side].atoms)
           EXPECT_NEAR(glm::distance(atom.position, structure.atoms[b].position),
                       glm::distance(before.atoms[a].position, before.atoms[b].position), 1e-9);

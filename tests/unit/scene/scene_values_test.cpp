@@ -16,7 +16,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-/// A value that a property may have and that is not its default.
+/// Returns a possible value of a property that is not its default.
 Texts example_of(const Property& property) {
   const std::map<std::string_view, Texts> examples{
       {"molecule.model", {"2"}},
@@ -169,7 +169,7 @@ TEST(SceneValues, OfPresetsLieUnderTheOthers) {
   }
 }
 
-// A path of a moving camera or a camera of its own has no aim.
+// A moving camera or a camera of its own has no aim.
 TEST(SceneValues, OfAPresetLeaveACameraAsItIs) {
   for (const char* const key : {"camera.from", "camera.path"}) {
     Scene scene;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What changes steadily between two figures of a film ends where it should, and is in between on the way.
+// Values that change steadily between two figures of a film end in their places, and are intermediate on the way.
 #include "core/scene/transition.h"
 
 #include <cmath>
@@ -35,7 +35,7 @@ TEST(CameraBetween, EndsAtBothAndKeepsItsProjection) {
 }
 
 TEST(PlanesBetween, MoveTurnLeaveAndCome) {
-  const std::vector<Ball> balls{{{0.0, 0.0, 0.0}, 2.0}, {{10.0, 0.0, 0.0}, 3.0}};  // x from -2 to 13
+  const std::vector<Ball> balls{{{0.0, 0.0, 0.0}, 2.0}, {{10.0, 0.0, 0.0}, 3.0}};  // Their extent in x is -2 to 13.
   const ClipPlane x5{{1.0, 0.0, 0.0}, 5.0}, x9{{1.0, 0.0, 0.0}, 9.0}, y0{{0.0, 1.0, 0.0}, 0.0};
   const auto moved = planes_between(std::vector{x5}, std::vector{x9}, balls, 0.25);
   ASSERT_EQ(moved.size(), 1u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds counted by closed forms, and what sticks, balls and spheres are made of.
+// Bonds counted by closed forms, and the parts of sticks, balls and spheres.
 #include "core/shapes/shapes.h"
 
 #include <algorithm>
@@ -80,7 +80,7 @@ TEST(MoleculeBonds, DoNotCrossAlternateLocations) {
                            atom(" C3 ", 2.9, 'A') + atom(" C3 ", 2.6, 'B');
   EXPECT_EQ(bonds_of(read_text(folder, text, all)), (std::vector<Bond>{{0, 1}, {0, 2}, {1, 3}, {2, 4}}));
   EXPECT_EQ(bonds_of(read_text(folder, text)), (std::vector<Bond>{{0, 1}, {1, 2}}));
-  // Residues of which one location each is left hold together, whatever their letters.
+  // Residues with one location of each atom hold together, for any letters.
   const std::string two = atom(" C1 ", 0.0, 'A', 1) + atom(" C2 ", 1.5, 'B', 2);
   EXPECT_EQ(bonds_of(read_text(folder, two)), (std::vector<Bond>{{0, 1}}));
   const std::string three = two + atom(" C2 ", 1.4, 'C', 2);
@@ -98,7 +98,7 @@ TEST(MoleculeBonds, LeaveOutDuplicatesIonsPairsOfHydrogensAndStrangers) {
     structure.atoms.push_back(one);
   };
   add(0.0, 6);
-  add(0.3, 6);  // a duplicate
+  add(0.3, 6);  // The atom is a duplicate.
   add(10.0, 1);
   add(10.74, 1);
   add(20.0, 20, AtomClass::ion);
@@ -165,7 +165,7 @@ TEST_F(ShapesOfThree, AnAtomWhosePartnerIsNotSelectedIsABall) {
   const Shapes ends = sticks(structure_, {true, false, true}, bonds_, 0.5);
   EXPECT_TRUE(ends.cylinders.empty());
   ASSERT_EQ(ends.spheres.size(), 2u);
-  EXPECT_EQ(ends.spheres[0].radius, 0.5);  // no thinner than a stick
+  EXPECT_EQ(ends.spheres[0].radius, 0.5);  // The ball is no thinner than a stick.
   EXPECT_EQ(ends.spheres[1].radius, kBallShare * 3.7);
   EXPECT_EQ(ends.spheres[1].atom, 2u);
   EXPECT_TRUE(sticks(structure_, {false, false, false}, bonds_).empty());
@@ -227,7 +227,7 @@ TEST(ShownAtoms, NeedNotBeAtomsOfTheSurface) {
     if (one.chain == "A") residues_of_sticks.insert(one.residue_number);
   }
   EXPECT_EQ(residues_of_sticks, (std::set<std::int32_t>{40, 41}));
-  // A peptide bond between the surface's last residue and the first beside it.
+  // A peptide bond joins the surface's last residue and the first residue outside of it.
   const auto own = static_cast<std::uint32_t>(structure.atoms.size());
   std::size_t across = 0;
   for (const auto& [a, b] : *structure.shown_bonds)
@@ -256,7 +256,7 @@ TEST(ShownAtoms, ThatAreNoneAreAnError) {
   for (const Atom& one : water.extra_atoms) EXPECT_EQ(one.kind, AtomClass::water);
 }
 
-/// Every edge once in each direction, no triangle without area, normals of length 1 that look where triangles do.
+/// Checks that every edge exists once in each direction, no triangle lacks area, and unit normals look outwards.
 void expect_closed_and_outward(const MeshShape& mesh, int bodies) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   double volume = 0.0;
@@ -317,7 +317,7 @@ TEST(Backbone, OfAStraightChainIsATubeWithRoundEnds) {
   EXPECT_TRUE(backbone(structure, std::vector<bool>(5, false)).empty());
 }
 
-/// An atom with a name, of a residue that holds together.
+/// Adds an atom with a name, to a residue that holds together.
 void add_atom(Structure& structure, const char* name, std::uint32_t residue, const char* residue_name, double x,
               double y, double z) {
   Atom one;
@@ -331,7 +331,7 @@ void add_atom(Structure& structure, const char* name, std::uint32_t residue, con
   structure.atoms.push_back(one);
 }
 
-/// A regular ring of so many of these atoms, bonds of 1.4 Å, in the plane of x and y.
+/// Adds a regular ring of these atoms, bonds of 1.4 Å, in the plane of x and y.
 void add_ring(Structure& structure, std::initializer_list<const char*> names, std::uint32_t residue,
               const char* residue_name) {
   const double angle = 2.0 * 3.14159265358979 / static_cast<double>(names.size()), radius = 0.7 / std::sin(0.5 * angle);
@@ -346,7 +346,7 @@ TEST(Bases, AreFilledRingsThatARungJoinsToTheTube) {
   Structure structure;
   add_ring(structure, {"N1", "C2", "N3", "C4", "C5", "C6"}, 0, "U");
   add_atom(structure, "C1'", 0, "U", 2.85, 0.0, 0.0);  // next to N1
-  add_atom(structure, "O2", 0, "U", 2.0, 2.0, 0.0);    // beside the ring
+  add_atom(structure, "O2", 0, "U", 2.0, 2.0, 0.0);    // It is next to the ring.
   add_atom(structure, "P", 0, "U", 7.0, -3.0, 0.0);
   add_atom(structure, "C4'", 0, "U", 5.0, -2.0, 0.0);
   add_atom(structure, "P", 1, "U", 7.0, 3.0, 0.0);
@@ -356,7 +356,7 @@ TEST(Bases, AreFilledRingsThatARungJoinsToTheTube) {
   double highest = 0.0;
   for (const glm::dvec3& p : shapes.mesh.positions) highest = std::max(highest, std::abs(p.z));
   EXPECT_DOUBLE_EQ(highest, 0.2);
-  ASSERT_EQ(shapes.cylinders.size(), 8u);  // six of the ring, to C1', to the tube
+  ASSERT_EQ(shapes.cylinders.size(), 8u);  // six for the ring, one to C1', one to the tube
   const CylinderShape& rung = shapes.cylinders.back();
   EXPECT_EQ(rung.from, structure.atoms[6].position);
   EXPECT_NEAR(rung.to.x, 7.0, 0.3);  // the line between the two P
@@ -419,13 +419,13 @@ TEST(SugarSymbols, AreClosedSolidsOfTheirShape) {
   EXPECT_EQ(cube.spheres.size(), 8u);
   EXPECT_EQ(cube.cylinders.size(), 12u);
   expect_closed_and_outward(cube.mesh, 6);
-  const Shapes diamond = symbol("GCU");  // half white
+  const Shapes diamond = symbol("GCU");  // Half of it is white.
   EXPECT_EQ(diamond.cylinders.size(), 12u);
   expect_closed_and_outward(diamond.mesh, 8);
   EXPECT_EQ(std::set<std::uint32_t>(diamond.mesh.atoms.begin(), diamond.mesh.atoms.end()),
             (std::set<std::uint32_t>{0, 6}));
   const Shapes crossed = symbol("GCS");
-  EXPECT_EQ(crossed.cylinders.size(), 12u);  // none along the diagonals
+  EXPECT_EQ(crossed.cylinders.size(), 12u);  // No cylinder runs along the diagonals.
   expect_closed_and_outward(crossed.mesh, 8);
   expect_closed_and_outward(symbol("FUC").mesh, 1);
   expect_closed_and_outward(symbol("XYS").mesh, 12);
@@ -449,7 +449,7 @@ TEST(SugarSymbols, AreLinkedToEachOtherAndToTheProtein) {
   EXPECT_GT(to_protein, 0u);
 }
 
-/// Has the mesh no edge without a partner in the other direction, and is no corner off its sphere by the tolerance?
+/// Checks that each edge has a partner in the other direction, and that corners are near their sphere.
 TEST(ShapeMesh, IsClosedAndWithinTheTolerance) {
   Structure structure;
   for (std::uint32_t n = 0; n < 2; ++n) {

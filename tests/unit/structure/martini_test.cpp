@@ -27,7 +27,7 @@ struct Row {
   std::string residue_name, name;
 };
 
-/// A GRO file whose beads are in a row, 3 Å apart.
+/// Returns a GRO file whose beads are in a row, 3 Å apart.
 std::string gro(const std::vector<Row>& rows) {
   std::string text = fmt::format("beads\n{:5}\n", rows.size());
   for (std::size_t n = 0; n < rows.size(); ++n)
@@ -124,7 +124,7 @@ TEST(Martini, AtomsBesideBeadsAreCounted) {
 TEST(Martini, BondsFollowTheTopologyOfALipid) {
   const Structure structure = read(kLipid);
   std::vector<Atom> atoms = structure.atoms;
-  for (Atom& atom : atoms) atom.position *= 0.3;  // all near
+  for (Atom& atom : atoms) atom.position *= 0.3;  // All atoms are near.
   EXPECT_EQ(molecule_bonds(atoms, {}), (std::vector<Bond>{{0, 1}, {1, 2}, {2, 3}, {2, 4}, {3, 6}, {4, 5}, {6, 7}}));
 }
 

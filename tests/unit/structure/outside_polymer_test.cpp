@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a surface takes of a file with a polymer, and which of the other molecules pictures draw.
+// Atoms that a surface takes from a file with a polymer, and the other molecules that pictures draw.
 #include "core/structure/residues.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 using test::PdbLine;
 using test::TemporaryFolder;
 
-/// Atoms of residues far apart from each other.
+/// Makes atoms of residues that are far apart from each other.
 class Molecules {
  public:
   void add(AtomClass kind, const std::string& residue, std::size_t atoms = 1, std::int32_t model = 1) {
@@ -74,7 +74,7 @@ TEST(OutsidePolymer, MembranesSaltAndSolventAreNotDrawn) {
   Molecules box;
   box.add_many(5, AtomClass::polymer, "ALA", 5);
   box.add_many(15, AtomClass::ligand, "POPC", 45);
-  box.add_many(15, AtomClass::ligand, "POPE", 45);  // together more than a few
+  box.add_many(15, AtomClass::ligand, "POPE", 45);  // Together they are more than a few.
   box.add_many(21, AtomClass::ion, "NA");
   box.add_many(21, AtomClass::ligand, "EOH", 3);
   EXPECT_EQ(box.count(Part::lipid), 30u * 45u);
@@ -115,8 +115,8 @@ std::string line(const char* record, const char* name, const char* residue, int 
   return atom.text();
 }
 
-/// Two residues of a chain, a selenomethionine, two sugars bound to it, a free sugar, a ligand of two atoms, zinc,
-/// water.
+/// Returns two residues of a chain, a selenomethionine, two sugars bound to it, a free sugar, a ligand of two atoms,
+/// zinc, water.
 std::string sample() {
   return line("ATOM", " N  ", "ASN", 1, 0.0, " N") + line("ATOM", " CA ", "ASN", 1, 1.45, " C") +
          line("ATOM", " C  ", "ASN", 1, 2.9, " C") + line("HETATM", " N  ", "MSE", 2, 4.2, " N") +

@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-// Apart from each other by chance, in a box of this edge.
+// Returns randomly placed atoms in a box of this edge.
 Structure scattered_atoms(std::size_t count, double edge) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-edge / 2, edge / 2);

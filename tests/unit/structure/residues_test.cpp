@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Alternate locations that are not whole, the greatest areas of amino acids, and which residues have a relative one.
+// Incomplete alternate locations, the greatest areas of amino acids, and residues that have a relative area.
 #include "core/structure/residues.h"
 
 #include <cmath>
@@ -38,7 +38,7 @@ TEST(Accessibility, GreatestAreasAreThoseOfThePaper) {
 TEST(Accessibility, IsThatOfWholeResidues) {
   const struct {
     const char *residue, *atoms;
-    double relative;  // of one Å² an atom; -1: none
+    double relative;  // relative area at 1 Å² per atom; -1: none
   } residues[] = {{"ALA", "N CA C O CB", 5.0 / 129},
                   {"ALA", "N CA C O CB OXT", 6.0 / 129},
                   {"ALA", "N H CA HA C O CB HB1 HB2 HB3", 10.0 / 129},
@@ -46,11 +46,11 @@ TEST(Accessibility, IsThatOfWholeResidues) {
                   {"GLY", "N CA C O", 4.0 / 104},
                   {"ILE", "N CA C O CB CG1 CG2 CD", 8.0 / 197},  // GROMACS' name
                   {"MSE", "N CA C O CB CG SE CE", 8.0 / 224},
-                  {"ALA", "N CA C O", -1},  // a side chain that is not there
+                  {"ALA", "N CA C O", -1},  // The side chain is missing.
                   {"LYS", "N CA C O CB", -1},
-                  {"ALA", "N CA C O O O", -1},  // as many, but not the right ones
+                  {"ALA", "N CA C O O O", -1},  // The number is right, but the atoms are wrong.
                   {"ALA", "CA", -1},
-                  {"ALA", "BB SC1", -1},  // of Martini
+                  {"ALA", "BB SC1", -1},  // beads of Martini
                   {"HEM", "FE NA NB", -1}};
   Structure structure;
   for (const auto& [residue, atoms, relative] : residues) {
@@ -101,7 +101,7 @@ std::string mmcif_of(const std::vector<AtomRow>& rows) {
   return text;
 }
 
-/// The atoms that are kept, "N.A" of alternate location A, in the order of the file; the same from both formats.
+/// Returns the kept atoms, "N.A" of alternate location A, in the order of the file; both formats must agree.
 std::vector<std::string> kept_of(const std::vector<AtomRow>& rows, const char* choice = "best",
                                  std::vector<Warning>* warnings = nullptr) {
   const test::TemporaryFolder folder;
@@ -165,7 +165,7 @@ TEST(Altloc, ResiduesOfOtherNamesGiveNothing) {
 }
 
 TEST(Altloc, HydrogensComeWithTheAtomThatTheyAreBondedTo) {
-  // By neutrons, H and D share a place; by another conformer, hydrogens have other places about the same carbon.
+  // In neutron data H and D share a place; in another conformer hydrogens have other places about the same carbon.
   const std::vector<AtomRow> exchanged{
       {"N", "N", ' ', 1, 0, 0, 0}, {"H", "H", 'A', 0.4, 1, 0, 0}, {"D", "D", 'B', 0.6, 1, 0, 0}};
   EXPECT_EQ(kept_of(exchanged), (Names{"N", "D.B"}));

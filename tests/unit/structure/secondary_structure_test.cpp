@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Helices and strands: of a chain made to measure, as files list them, and as MDTraj's DSSP sees them.
+// Helices and strands of an ideal chain, of lists in files, and of MDTraj's DSSP.
 #include "core/structure/secondary_structure.h"
 
 #include <cmath>
@@ -24,7 +24,7 @@ using enum SecondaryStructure;
 
 constexpr const char* kUbiquitinFile = "/usr/share/freesasa/test-data/1ubq.pdb";
 
-/// The point at this distance from c, with this angle at c and this dihedral about b to c.
+/// Returns the point at this distance from c, with this angle at c and this dihedral about b to c.
 glm::dvec3 placed(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double distance, double angle,
                   double dihedral) {
   const double degree = std::numbers::pi / 180.0;
@@ -34,7 +34,7 @@ glm::dvec3 placed(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                          std::sin(bend) * std::sin(turn) * normal);
 }
 
-/// A chain of alanines with these dihedrals, bonds of 1.33 to 1.52 Å and usual angles.
+/// Returns a chain of alanines with these dihedrals, bonds of 1.33 to 1.52 Å and usual angles.
 std::vector<Atom> chain_of(std::uint32_t residues, double phi, double psi) {
   std::vector<Atom> atoms;
   const auto add = [&](const char* name, std::uint32_t residue, const glm::dvec3& position) {
@@ -63,7 +63,7 @@ std::vector<Atom> chain_of(std::uint32_t residues, double phi, double psi) {
   return atoms;
 }
 
-/// One letter a residue: H helix, E strand, - coil, ? unknown.
+/// Returns one letter a residue: H helix, E strand, - coil, ? unknown.
 std::string letters(const std::vector<Atom>& atoms, const std::vector<SecondaryStructure>& kinds) {
   std::string result;
   for (std::size_t n = 0; n < atoms.size(); ++n)
@@ -75,7 +75,7 @@ std::string letters(const std::vector<Atom>& atoms) { return letters(atoms, seco
 
 TEST(SecondaryStructure, AnAlphaHelixIsOneButForItsEnds) {
   EXPECT_EQ(letters(chain_of(14, -57.0, -47.0)), "-HHHHHHHHHHHH-");
-  EXPECT_EQ(letters(chain_of(14, -49.0, -26.0)), "-HHHHHHHHHHHH-");  // of 3-10
+  EXPECT_EQ(letters(chain_of(14, -49.0, -26.0)), "-HHHHHHHHHHHH-");  // a 3-10 helix
 }
 
 TEST(SecondaryStructure, OneStrandAloneIsCoil) { EXPECT_EQ(letters(chain_of(10, -120.0, 135.0)), "----------"); }
@@ -90,7 +90,7 @@ TEST(SecondaryStructure, AChainThatIsCutHasTwoHelices) {
   EXPECT_EQ(letters(atoms), "-HHHHHH---HHHHH-");
 }
 
-// As of a file that is added to another: whatever another model has, a model has what it has alone.
+// Files may be added to one another: each model has the structure that it has alone.
 TEST(SecondaryStructure, IsThatOfEachModelAlone) {
   const auto read_lines = [](bool listed) {
     std::string text;

@@ -39,7 +39,7 @@ Superposition fit_of(const std::vector<Atom>& reference, const std::vector<Atom>
   return pairs.empty() ? Superposition{} : superposition(reference, other, pairs);
 }
 
-/// Farthest that an atom of the other molecule is from the one that it is a copy of, after the fit.
+/// Returns the largest distance of the other molecule's atoms from their originals after the fit.
 double farthest(const std::vector<Atom>& reference, const std::vector<Atom>& other, const RigidMotion& motion) {
   double most = 0.0;
   for (std::size_t n = 0; n < reference.size(); ++n)
@@ -86,7 +86,7 @@ TEST(SuperpositionBySequence, ChainsOfADimerArePairedByPlace) {
   const std::size_t one = reference.size();
   for (Atom& atom : second) atom.chain = "B", atom.residue += 1000;
   reference.insert(reference.end(), second.begin(), second.end());
-  // The same dimer with a third chain elsewhere, and chains in another order.
+  // The dimer has a third chain elsewhere, and its chains are in another order.
   std::vector<Atom> other = moved(reference, some_motion());
   for (std::size_t n = 0; n < other.size(); ++n) other[n].chain = n < one ? "Z" : "Y";
   std::vector<Atom> third = moved(second, some_motion());

@@ -76,7 +76,7 @@ std::vector<std::uint32_t> contacts_of(const Surface& s, const ConcavePatch& pat
   return {s.contacts.begin() + patch.first_contact, s.contacts.begin() + patch.first_contact + patch.contact_count};
 }
 
-// What a picture shows of the patches that blocks keep.
+// Compares what pictures use of the patches that blocks keep.
 void expect_equal_patches(const Surface& blocks, const Surface& whole) {
   ASSERT_EQ(blocks.convex.size(), whole.convex.size());
   for (std::size_t n = 0; n < whole.convex.size(); ++n) {

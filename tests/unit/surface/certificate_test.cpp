@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that cannot be are refused: each fault that a surface could hide behind closed borders is planted and found.
+// Impossible numbers are refused: each fault that a surface could hide behind closed borders is planted and found.
 #include "core/surface/certificate.h"
 
 #include <cmath>
@@ -29,12 +29,12 @@ bool holds(Surface surface, const MeasurementDoubts& doubts = {}) {
   return surface.certificate.closed;
 }
 
-// With a cavity: a lattice whose cells have room for the probe.
+// Returns a lattice whose cells have room for the probe, and so cavities.
 Surface lattice_with_cavities() { return compute_surface_cpu(lattice(3, 3, 3, 3.8), kWater); }
 
 Surface lone_atom() { return compute_surface_cpu(Balls{{{0, 0, 0}, kCarbon}}, kWater); }
 
-// Two probes of three contacts each, too far apart to cut each other.
+// Returns the surface of two probes with three contacts each, too far apart to cut each other.
 Surface three_atoms() { return compute_surface_cpu(ring(3, 3.0), kWater); }
 
 Face& first_face(Surface& surface, PatchKind kind) {
@@ -70,7 +70,7 @@ TEST(Certificate, FindsAFaceThatIsOffByASphere) {
     }
 }
 
-// Below a whole sphere, which a convex face may fill: a probe has all that it touches on one side.
+// A convex face may fill a whole sphere, but a probe has all its contacts on one side.
 TEST(Certificate, FindsAReEntrantFaceOfMoreThanHalfASphere) {
   Surface surface = three_atoms();
   first_face(surface, PatchKind::concave).area = 3 * kPi * kWater * kWater;
@@ -191,7 +191,7 @@ TEST(Certificate, ComparesPlanesAndBordersOfPatchesCutFromCloseBy) {
   EXPECT_FALSE(holds(surface));
 }
 
-// A plane that cuts a patch of which no border is a cusp.
+// The plane cuts a patch without a cusp among its borders.
 TEST(Certificate, FindsACutThatLeavesNoCusp) {
   for (const double distance : {0.5, 1.9}) {
     Surface surface = three_atoms();
@@ -268,11 +268,11 @@ TEST(TieLadder, GrowsOnlyWhatDoesNotClose) {
   attempts = 0;
   const Surface none = compute_through_ties(balls, closing_at(-1));
   EXPECT_FALSE(none.certificate.closed);
-  EXPECT_EQ(attempts, kTieAttempts + 1);  // the first again, for it was not kept
+  EXPECT_EQ(attempts, kTieAttempts + 1);  // The first attempt ran again, for it was not kept.
   EXPECT_EQ(none.atoms[5].radius, balls[5].radius);
 }
 
-// From the least that decisions do not see, by threes; each rung draws again.
+// Growth begins with the least that decisions do not see, and goes by threes; each rung draws again.
 TEST(TieLadder, GrowsByThreesAndDrawsAnew) {
   EXPECT_EQ(tie_growth(0), 0.0);
   EXPECT_DOUBLE_EQ(tie_growth(1), 1e-8);
@@ -282,7 +282,7 @@ TEST(TieLadder, GrowsByThreesAndDrawsAnew) {
   const auto share = [&](int attempt) {
     return (grown_balls(balls, attempt)[0].radius - kCarbon) / tie_growth(attempt);
   };
-  for (int attempt = 7; attempt + 1 < kTieAttempts; ++attempt)  // before, rounding blurs the shares
+  for (int attempt = 7; attempt + 1 < kTieAttempts; ++attempt)  // Before, rounding blurs the shares.
     EXPECT_GT(std::abs(share(attempt + 1) - share(attempt)), 1e-4) << attempt;
 }
 
@@ -298,7 +298,7 @@ TEST(ExactWithin, IsTheGrowthWhereItDecides) {
   };
   for (const double gap : {-1e-3, -1e-8, 4e-9, 1e-8, 1.0}) EXPECT_EQ(exact_within(pair(gap)), 0.0) << gap;
   for (const double gap : {-1e-9, -1e-12, 0.0, 1e-12, 1e-9}) EXPECT_EQ(exact_within(pair(gap)), kGrowth) << gap;
-  // Four spheres through one point, and nearly so.
+  // Four spheres pass through one point, or nearly so.
   const auto square = [](double lift) {
     Balls balls = lattice(2, 2, 1, 3.0);
     balls[0].center.z += lift;
@@ -333,7 +333,7 @@ TEST(TieLadder, IsNotNeededForTiesThatDecisionsTellApart) {
   }
 }
 
-// What --verify compares: a face off by a sphere, a component by a probe, an area that is none.
+// --verify compares these: a face off by a sphere, a component by a probe, an impossible area.
 TEST(CompareMesh, FindsWhatTrianglesContradict) {
   const Surface surface = compute_surface_cpu(lattice(3, 3, 3, 3.8), kWater);
   const TriangleMesh mesh = tessellate(surface, {0.1, false});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From half-borders to loops, faces and areas: small cases with a known answer.
+// Half-borders become loops, faces and areas: small cases with a known answer.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,7 @@
 namespace meniscus::testing {
 namespace {
 
-/// A circle of latitude of the unit sphere, counter-clockwise about z: what is north of it lies on its left.
+/// Returns a circle of latitude of the unit sphere, counter-clockwise about z: the north lies on its left.
 Border latitude(double z) {
   Border border;
   border.center = {0, 0, z};

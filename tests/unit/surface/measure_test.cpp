@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces with blurred corners: their areas are those about a pole, and whatever Gauss-Bonnet makes of them is heard.
+// Faces with blurred corners: their areas are those about a pole, and disagreements with Gauss-Bonnet are reported.
 #include "core/surface/measure.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// One face of the unit sphere to the left of a loop, and the half-spaces that keep it.
+/// Returns one face of the unit sphere to the left of a loop, and the half-spaces that keep it.
 Surface face_of(const std::vector<Border>& loop, const std::vector<Plane>& planes) {
   Surface surface;
   surface.probe_radius = 1.4;
@@ -36,7 +36,7 @@ Surface face_of(const std::vector<Border>& loop, const std::vector<Plane>& plane
   return surface;
 }
 
-/// The polygon of great-circle arcs through points of the plane z = 1, as seen from the middle of the sphere.
+/// Returns the polygon of great-circle arcs through points of the plane z = 1, seen from the middle of the sphere.
 std::vector<Border> polygon(const std::vector<glm::dvec2>& points) {
   std::vector<Border> loop;
   for (std::size_t n = 0; n < points.size(); ++n) {
@@ -51,7 +51,7 @@ std::vector<Border> polygon(const std::vector<glm::dvec2>& points) {
   return loop;
 }
 
-/// A circle of that angular radius around the z axis that ends beside its beginning, by 0.4 of its radius.
+/// Returns a circle of that angular radius around the z axis that ends next to its beginning, by 0.4 of its radius.
 Border unclosed_circle(double size, double direction) {
   return {.center = {0, 0, std::cos(size)},
           .axis = {0, 0, direction},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers and tables that many threads make together are those that one thread makes alone.
+// Numbers and tables of many threads equal those of one thread.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -37,7 +37,7 @@ struct TableRow {
   double rest[3] = {};
 };
 
-// Short ones, and one that all threads ask for memory.
+// Tables are short, or so long that all threads request their memory.
 TEST(LargeTables, HaveTheRowsOfAnyTable) {
   for (const std::size_t size : {0u, 1u, 1000u, 1500000u}) {
     std::vector<TableRow> table;
@@ -47,7 +47,7 @@ TEST(LargeTables, HaveTheRowsOfAnyTable) {
   }
 }
 
-// The system is asked for all whole pages between two that are partly someone else's, and for no others.
+// The system gets requests for all whole pages between two shared ones, and for no others.
 TEST(LargeTables, GetTheirMemoryBeforeItIsWritten) {
   constexpr std::size_t kPage = 4096, kPages = 10000;
   void* const memory = ::mmap(nullptr, kPages * kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Components of the reduced surface beside those of the surface: a cage whose cavity the outside cuts into, and others.
+// Components of the reduced surface compared with the surface's: a cage whose cavity the outside cuts into, and others.
 #include "core/surface/reduced_components.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST(ReducedComponents, TheOutsideIsWhatItIsWithoutTheCavity) {
   EXPECT_NEAR(sizes[0].volume, outside.volume, 1e-9 * outside.volume);
 }
 
-// What rolls is the same; only where probes meet do the two surfaces differ.
+// Both surfaces have the same rolling probes; they differ only where probes meet.
 TEST(ReducedComponents, OnlyReentrantPatchesDependOnWhoCutsThem) {
   const Surface exact = compute_surface_cpu(cage(), kWater);
   const ComponentSurface own = component_surface(cage());
@@ -95,7 +95,7 @@ TEST(ReducedComponents, WithoutAProbeTheyAreThoseOfTheSurface) {
   EXPECT_EQ(result.components.count, result.surface.components.size());
 }
 
-// Closed sheets, each of one component, with all of the area, whatever ties there are.
+// Closed sheets, each of one component, have all of the area in spite of any ties.
 TEST(ReducedComponents, EveryDegenerateMoleculeHasThem) {
   for (const NamedBalls& molecule : degenerate_molecules()) {
     SCOPED_TRACE(molecule.name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Regions on the unit sphere: areas from next to nothing to next to everything, moments, and sides of loops.
+// Regions on the unit sphere: areas from almost nothing to almost everything, moments, and sides of loops.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -19,7 +19,7 @@ SphereArc great_arc(const glm::dvec3& a, const glm::dvec3& b) {
   return {glm::normalize(normal), 0.0, a, b, std::atan2(glm::length(normal), glm::dot(a, b)), false};
 }
 
-// A regular polygon of great-circle arcs around the z axis, turned at random.
+// Returns a regular polygon of great-circle arcs around the z axis, turned at random.
 std::vector<SphereArc> polygon(int corners, double polar_angle, const glm::dmat3& turn) {
   std::vector<glm::dvec3> points;
   for (int n = 0; n < corners; ++n) {
@@ -42,7 +42,7 @@ std::vector<SphereArc> backwards(std::vector<SphereArc> loop) {
   return loop;
 }
 
-// Girard: the sum of the interior angles, each 2 asin(cos(pi/n) / cos(half the side)).
+// Returns Girard's area by the sum of the interior angles, each 2 asin(cos(pi/n) / cos(half the side)).
 double polygon_area(int corners, double polar_angle) {
   const double half_side = std::asin(std::sin(polar_angle) * std::sin(kPi / corners));
   return corners * 2 * std::asin(std::cos(kPi / corners) / std::cos(half_side)) - (corners - 2) * kPi;

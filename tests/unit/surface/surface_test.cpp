@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces that are known in closed form or from an independent enumeration: areas, volumes, counts, components.
+// Surfaces known in closed form or from an independent enumeration: areas, volumes, counts, components.
 #include <cmath>
 #include <vector>
 
@@ -23,7 +23,7 @@ std::vector<int> euler_numbers(const Surface& surface) {
   return numbers;
 }
 
-// Area of two spheres of radius r at distance d (docs/explanation/theory.md, theorem 3; derived from Connolly 1983).
+// Returns the area of two spheres of radius r at distance d (docs/explanation/theory.md, theorem 3; Connolly 1983).
 double two_sphere_area(double r, double d, double p) {
   const double extended = r + p, circle = std::sqrt(extended * extended - d * d / 4), phi = std::asin(d / 2 / extended);
   const double convex = 4 * kPi * r * r * (1 + std::sin(phi));
@@ -32,7 +32,7 @@ double two_sphere_area(double r, double d, double p) {
   return convex + 4 * kPi * p * (circle * (phi - q) - p * (std::sin(phi) - std::sin(q)));
 }
 
-// Volume of the same solid: turn its outline about the axis and integrate with Simpson's rule.
+// Returns the volume of the same solid: turns its outline about the axis and integrates with Simpson's rule.
 double two_sphere_volume(double r, double d, double p) {
   const double extended = r + p, half = d / 2, circle = std::sqrt(extended * extended - half * half);
   const double contact = half * p / extended;  // the torus reaches from -contact to contact along the axis
@@ -68,7 +68,7 @@ TEST(TwoSpheres, UnionOfBallsForAProbeOfRadiusZero) {
   const double a = 1.7, b = 1.2;
   for (double d = 0.55; d < 2.9; d += 0.1) {
     const Surface s = compute_surface_cpu(two_atoms(d, a, b), 0.0);
-    const double height = (d * d + a * a - b * b) / (2 * d);  // of the circle over the first centre
+    const double height = (d * d + a * a - b * b) / (2 * d);  // height of the circle over the first centre
     const double cap_a = a + height, cap_b = b + (d - height);
     EXPECT_NEAR(s.area, 2 * kPi * (a * cap_a + b * cap_b), 1e-9 * s.area);
     EXPECT_NEAR(s.volume, ball_cap_volume(a, cap_a) + ball_cap_volume(b, cap_b), 1e-9 * s.volume);
@@ -144,7 +144,7 @@ struct Row {
   std::size_t fixed_probes, arcs, free_edges, convex;
 };
 
-// Areas and volumes of an independent enumeration; counts of n-contact probes by symmetry.
+// Returns areas and volumes of an independent enumeration; counts of n-contact probes by symmetry.
 std::vector<Row> reference_rows() {
   const Balls coincident = two_atoms(0.0), nested = {{{0.4, 0.3, -0.2}, 1.0}, {{0, 0, 0}, 3.0}};
   return {{{"two, 3.0", two_atoms(3.0)}, 66.078, 42.347, {2}, 0, 0, 1, 2},

@@ -16,7 +16,7 @@
 namespace meniscus::testing {
 namespace {
 
-/// Unit vectors that cover the sphere evenly.
+/// Returns unit vectors that cover the sphere evenly.
 std::vector<glm::dvec3> directions(int count) {
   std::vector<glm::dvec3> all;
   for (int n = 0; n < count; ++n) {
@@ -26,7 +26,7 @@ std::vector<glm::dvec3> directions(int count) {
   return all;
 }
 
-/// How deep a probe that touches atom a in this direction is in another atom at most: power, Å².
+/// Returns how deep a probe that touches atom a in this direction is in another atom at most: power, Å².
 double depth(const Balls& atoms, std::size_t a, const glm::dvec3& direction, double p) {
   const glm::dvec3 probe = atoms[a].center + (atoms[a].radius + p) * direction;
   double deepest = -1e300;
@@ -38,14 +38,14 @@ double depth(const Balls& atoms, std::size_t a, const glm::dvec3& direction, dou
   return deepest;
 }
 
-/// Directions in which the planes of the atoms' patches say otherwise than the atoms do.
+/// Counts directions in which the planes of the atoms' patches disagree with the atoms.
 int wrong_directions(const Surface& s, const std::vector<glm::dvec3>& all) {
   int wrong = 0;
   for (std::uint32_t c = 0; c < s.convex.size(); ++c) {
     const std::uint32_t a = s.convex[c].atom;
     for (const glm::dvec3& u : all) {
       const double covered = depth(s.atoms, a, u, s.probe_radius);
-      if (std::abs(covered) < 1e-6) continue;  // on a border
+      if (std::abs(covered) < 1e-6) continue;  // The direction is on a border.
       const glm::dvec3 point = s.atoms[a].center + s.atoms[a].radius * u;
       wrong += inside_planes(s, PatchKind::convex, c, point) != (covered < 0);
     }
@@ -94,7 +94,7 @@ TEST(Trim, PlanesLeaveWhatAProbeCanTouch) {
   EXPECT_EQ(wrong_directions(compute_surface_cpu(ubiquitin(), kWater), all), 0);
 }
 
-/// A square of atoms, one of them moved outwards: the probe over all four becomes two, which touch three each.
+/// Returns a square of atoms, one of them moved outwards: the probe over all four becomes two, which touch three each.
 Balls opened_square(double by) {
   Balls square = ring(4, 3.0);
   square[0].center += by * glm::normalize(square[0].center);
@@ -126,7 +126,7 @@ TEST(Merging, IsOfProbesWithinAMillionthOfAnAngstrom) {
   }
 }
 
-// Planes that were put off are those that were listed at once, to the bit and in the same order.
+// Deferred planes equal those that were listed at once, to the bit and in the same order.
 TEST(Trim, DeferredPlanesAreThose) {
   const auto engine = make_cpu_engine();
   StageClock unused;

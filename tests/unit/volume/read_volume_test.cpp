@@ -15,14 +15,14 @@
 namespace meniscus {
 namespace {
 
-/// What trilinear sampling gives back exactly, but for the rounding of values to floats.
+/// Returns a linear field, which trilinear sampling gives back exactly but for the rounding of values to floats.
 double field(const glm::dvec3& x) { return 0.5 + 0.25 * x.x - 0.75 * x.y + 1.5 * x.z; }
 
 glm::dvec3 point_of(const VolumeFrame& frame, std::size_t i, std::size_t j, std::size_t k) {
   return frame.origin + frame.step * glm::dvec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
 }
 
-/// The field's values, the last axis fastest.
+/// Returns the field's values, the last axis fastest.
 std::vector<float> values_of(const VolumeFrame& frame) {
   std::vector<float> values;
   for (std::size_t i = 0; i < frame.size[0]; ++i)
@@ -38,7 +38,7 @@ std::string text_of(const std::vector<float>& values) {
   return text + "\n";
 }
 
-/// Ten thousand random points of its box, all corners, and points outside.
+/// Compares ten thousand random points of its box, all corners, and points outside.
 void expect_field(const VolumeGrid& grid, const VolumeFrame& frame) {
   for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_EQ(grid.frame().size[axis], frame.size[axis]);
   const glm::dvec3 last(frame.size[0] - 1.0, frame.size[1] - 1.0, frame.size[2] - 1.0);
@@ -91,13 +91,13 @@ std::string cube_text(const VolumeFrame& f, const std::string& values, double un
 
 struct Ccp4Wish {
   int mode = 2;
-  std::array<int, 3> axis_of{2, 0, 1};  ///< that columns, rows and sections run along
+  std::array<int, 3> axis_of{2, 0, 1};  ///< axes along columns, rows and sections
   bool swapped = false;
   bool by_origin = false;
   std::size_t extended = 0;
 };
 
-/// A box of 90° cells of 0.5, 0.75 and 1 Å.
+/// Returns a box of 90° cells of 0.5, 0.75 and 1 Å.
 VolumeFrame ccp4_frame() {
   VolumeFrame frame;
   frame.size = {4, 3, 5};

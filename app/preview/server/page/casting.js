@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who draws the stage: this browser, from the figure's tables, or the program, whose pictures come. Both are timed, and the
-// faster one draws.
+// Decides who draws the stage: this browser from the figure's tables, or the program, which sends pictures. Both are
+// timed, and the faster one draws.
 
 const kTries = 4;      // the most drafts that are timed; the first one also compiles shaders
 const kPatience = 250;  // ms; a draft that takes longer is the last one that is timed
@@ -17,7 +17,7 @@ export function webgl_device() {
 
 const is_software = (device) => /swiftshader|llvmpipe|softpipe|software|basic render/i.test(device);
 
-/// True if this browser may be the faster one. program: its times, {draft, rest, took} in milliseconds.
+/// Returns true if this browser may be the faster one. program: its times, {draft, rest, took} in milliseconds.
 export const is_worth_timing = (device, program) => device !== "" && (!is_software(device) || program.took > kSlow);
 
 /// Returns the milliseconds that this browser takes for a draft as large as the stage, and for the picture at rest.
@@ -26,7 +26,7 @@ export function time_casting(viewer) {
     const began = performance.now();
     viewer.sample = -1;
     viewer.draw_sample(width, height);
-    viewer.caster.read(0, 0, 1, 1, 2);  // waits for the device
+    viewer.caster.read(0, 0, 1, 1, 2);  // waits until the device has drawn
     return performance.now() - began;
   };
   let draft = Infinity, took = Infinity;
@@ -37,13 +37,13 @@ export function time_casting(viewer) {
     draft = took / scale ** 2;
   }
   if (took > kPatience) return { draft, rest: Infinity };
-  time_sample();  // makes what all samples share
+  time_sample();  // the first sample also makes what all samples share
   return { draft, rest: time_sample() * viewer.figure.samples.length };
 }
 
 const ms = (value) => value === Infinity ? "unknown" : `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
 
-/// Returns who draws and why, in a sentence. times: of the browser and the program, as above.
+/// Returns in a sentence who draws and why. times: the times of the browser and of the program.
 export function who_draws({ device, unavailable, times: { browser, program }, casts, rests }) {
   if (!device) return "The program draws: this browser has no WebGL 2.";
   if (unavailable) return unavailable;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The socket: numbered questions with their replies, and one picture or figure at a time.
 
-/// "open" where the server lets us in, "refused" where it has another token by now, "gone" where there is none.
+/// Resolves to "open" if the server accepts this page, "refused" if its token has changed, or "gone".
 export const answers = () => fetch(location.href, { cache: "no-store" })
   .then((answer) => answer.ok ? "open" : "refused", () => "gone");
 
-/// Calls handlers[event](message) for what the server says of itself, and for pictures and figures with the bytes as well.
+/// Calls handlers[event](message) for announcements of the server, and with the bytes as well for pictures and figures.
 export class Connection {
   #socket;
   #handlers;
@@ -26,7 +26,7 @@ export class Connection {
     this.#socket.addEventListener("close", () => this.#close());
   }
 
-  /// Sends a command; the promise becomes its reply.
+  /// Sends a command; the promise resolves to its reply.
   async ask(command) {
     await this.#open;
     const id = this.#next++;
@@ -36,7 +36,7 @@ export class Connection {
     });
   }
 
-  /// Asks the server itself, which does not reply.
+  /// Sends a request to the server itself, which does not reply.
   request(what, values = {}) {
     if (this.#socket.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify({ request: what, ...values }));
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the molecule consists of: a list of its chains, ligands, ions and waters, and the sequence of a chain.
+// Lists the chains, ligands, ions and waters of the molecule, and shows the sequence of a chain.
 import { element } from "./figure.js";
 
-/// Shows the list and the sequence; selection: of select_controls(). Returns show(state).
+/// Shows the list and the sequence. selection: the result of select_controls(). Returns show(state).
 export function contents_controls({ command, ask }, selection) {
   let entries = [], known = "", chain = null;  // chain: the entry whose sequence is shown
 
@@ -17,7 +17,7 @@ export function contents_controls({ command, ask }, selection) {
     const name = element("button", { type: "button", className: "recall", title: entry.selection }, residue ? `${residue} ${number}` : entry.name,
       element("small", { textContent: size }));
     name.addEventListener("click", (event) => selection.choose({ ...entry, molecule: entry.selection }, event.shiftKey));
-    // What is not on the surface has the colours of its elements.
+    // Atoms that are not on the surface have the colours of their elements.
     if (entry.shown === 0 || (!entry.color && entry.selection.endsWith("polymer"))) return element("li", {}, eye, name);
     const colour = element("input", { type: "color", value: entry.color ?? "#45a878" });
     colour.setAttribute("aria-label", `Colour of ${entry.name}`);
@@ -75,7 +75,7 @@ export function contents_controls({ command, ask }, selection) {
     if (event.shiftKey) choose(all[next], true);
   });
 
-  // Both ways
+  // Links between the list, the sequence and the stage
 
   let chosen = [];
   function mark() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controls of the figure: a chip for each thing shown, cuts, caps, legend, kept views.
+// Controls of the figure: a chip for each shape and cut, and for caps, legend and kept views.
 
 export function element(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
@@ -17,13 +17,13 @@ export function remove_button(what, action) {
   return button;
 }
 
-/// Returns what a shape is called.
+/// Returns the name of a shape.
 export function shape_words(as, begins = false) {
   const words = as === "tube" ? "cartoon" : as;
   return begins ? words[0].toUpperCase() + words.slice(1) : words;
 }
 
-/// Returns a slider with its word, which is the slider of a thing: `what`.
+/// Returns a slider of `what`, with the word for its value.
 function slider(word, what, { min, max, step, value }, tell) {
   const range = element("input", { type: "range", min, max, step, value });
   range.setAttribute("aria-label", `${word} of ${what}`);
@@ -46,15 +46,15 @@ function plane_range(plane, state) {
   return { axis, sign, min: Math.floor(reach(Math.min)), max: Math.ceil(reach(Math.max)), step: 0.1, value };
 }
 
-/// Returns {selection, opacity} of an entry of surface.opacity, such as "chain A=0.4"; 0.4 is of all atoms.
+/// Returns {selection, opacity} of an entry of surface.opacity, such as "chain A=0.4"; 0.4 alone is for all atoms.
 function opacity_of(entry) {
   const text = String(entry), at = text.lastIndexOf("=");
   return { selection: at < 0 ? undefined : text.slice(0, at), opacity: Number(text.slice(at + 1)) };
 }
 
-/// Shows what the figure has, each with its controls; command(word, values) and set(key, value) change it. Returns show(state).
+/// Shows the parts of the figure with controls; command(word, values), set(key, value) change it. Returns show(state).
 export function figure_controls({ command, set, viewer }) {
-  let known = "";  // what the chips show: they are made anew when there are others, not when a slider moves
+  let known = "";  // the entries in the chips, which are made again when entries change, not when a slider moves
   const add = (key, value) => command("add", { key, value });
   const change = (key, index, value) => command("set", { key, index, value });  // null removes the entry
 
@@ -80,7 +80,7 @@ export function figure_controls({ command, set, viewer }) {
     $("view-name").value = "";
   });
 
-  // Views are kept in this tab of the browser.
+  // This tab of the browser keeps the views.
   const kViews = `meniscus views ${location.pathname}`, kept = new Map(JSON.parse(sessionStorage.getItem(kViews) ?? "[]"));
   function keep_view(name, camera) {
     if (camera) kept.set(name, camera);
@@ -96,12 +96,12 @@ export function figure_controls({ command, set, viewer }) {
   show_views();
 
   let latest = null;
-  let own_plane = "";  // the last one that the slider placed with the molecule
+  let own_plane = "";  // the last plane that the slider placed relative to the molecule
 
-  /// Which of the planes the slider moves: the one with the view, or the last one that it placed with the molecule.
+  /// Returns the index of the plane that the slider moves: one across the view, or the last that it placed.
   const slider_cut = ({ "surface.clip": cuts }) => cuts.findIndex((plane) => /^depth>/.test(plane) || plane === own_plane);
 
-  /// Cuts away a share of the molecule. again: across the view as it is now.
+  /// Cuts away a share of the molecule. again: the plane goes across the present view.
   function cut_by(share, again = false) {
     const cuts = latest.values["surface.clip"], index = slider_cut(latest.values), before = cuts[index];
     if (share === 0) return before && change("surface.clip", index, null);
@@ -119,7 +119,7 @@ export function figure_controls({ command, set, viewer }) {
     element("li", {}, element("span", { textContent: what }), remove_button(what, remove), ...more);
   const entry_chip = (what, key, index, ...more) => chip(what, () => change(key, index, null), ...more);
 
-  /// An object with its colour, its opacity if that is one number, and a surface's cut along the view.
+  /// Returns a chip with the object's colour, its opacity if that is one number, and a slider that cuts its surface.
   function object_chip(object, index) {
     const what = `${shape_words(object.representation)}: ${object.selection}`;
     const vary = (key, value) => {
@@ -158,7 +158,7 @@ export function figure_controls({ command, set, viewer }) {
     state.values["annotations.labels"].forEach((label, n) =>
       list.push(entry_chip(`label: ${label.slice(label.lastIndexOf("=") + 1)}`, "annotations.labels", n)));
     state.values["surface.opacity"].map(opacity_of).forEach(({ opacity, selection }, index) => {
-      if (selection === undefined) return;  // the slider of all
+      if (selection === undefined) return;  // a slider of its own is for all atoms
       const what = `see through: ${selection}`;
       list.push(entry_chip(what, "surface.opacity", index, slider("Opacity", what, { min: 0, max: 1, step: 0.05, value: opacity },
         (value) => change("surface.opacity", index, `${selection}=${value}`))));

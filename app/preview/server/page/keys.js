@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Handles the keys that need the program; the stage handles the keys of the camera itself. Letters are matched as typed,
-// in either case, so that they follow the user's keyboard.
+// Handles keys that need the program; the stage handles the keys of the camera. Letters are matched as typed, in either
+// case, so that they follow the user's keyboard.
 
-const kFast = 1000;  // ms between steps that follow each other
+const kFast = 1000;  // longest time in ms between the steps of a series
 const kUsual = { "look.ambient_occlusion": 1, "look.silhouettes": 1.5 };
-// These have no number: not every molecule has them, and kinds of patch have a key of their own.
+// These schemes have no number key, because not every molecule has them, and kinds of patch have their own key.
 const kUnnumbered = ["auto", "kind", "copy", "model"];
 
-/// The keys and what they do, for the list of keys.
+/// Rows of the list of keys: the key and its effect.
 export const key_help = [
   ["click", "select the atom; twice: its residue, three times: its chain"], ["Shift and click", "select one more"],
   ["Escape", "select nothing"], ["Z  Y", "undo, redo"], ["[  ]", "probe radius by 0.1 \u00c5"], ["1 2 3 ...", "colour scheme"],
   ["K", "colour by kind of patch"], ["A", "shade"], ["L", "lines"], ["G", "legend in pictures"], ["E", "name what is written"]];
 
-/// True if lines are drawn around what a state shows.
+/// Returns true if a state shows silhouettes or other lines.
 const has_lines = ({ values }) => ["silhouettes", "outer_lines", "inner_lines", "part_lines"].some((line) => values[`look.${line}`] > 0);
 
-/// Returns press(key), which does what the key means, and returns false for keys without a meaning. state() is what the
-/// program shows, schemes() the words of the colour schemes, name() goes to the name of what is written.
+/// Returns press(key), which does what the key means, and returns false for keys without a meaning. state() returns the
+/// program's state, schemes() the words of the colour schemes; name() focuses the name of the output.
 export function program_keys({ command, set, set_scheme, state, schemes, name }) {
   const values = () => state().values;
   const flip = (key, is_on) => set(key, is_on ? 0 : kUsual[key]);
-  const last = {};  // what the keys have set, and when
-  /// Returns the next value of a step by a key. Fast steps follow each other, for states of before them may come later.
+  const last = {};  // the values that keys have set, and the times
+  /// Returns the next value of a step by a key. Fast steps build on each other, as states may arrive late.
   const go_on = (name, told, step) => {
     const now = performance.now(), value = step(now - last[name]?.at < kFast ? last[name].value : told);
     last[name] = { value, at: now };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The direction of the light as a dot on a disc: a half ball seen from the viewer's side.
+// Shows the direction of the light as a dot on a disc, which is a half ball seen from the viewer's side.
 
-/// Puts the dot where light comes from: [right, up, towards the viewer].
+/// Puts the dot at the direction from which light comes: [right, up, towards the viewer].
 export function place_lamp(disc, [x, y, z]) {
   const length = Math.hypot(x, y, z);
   const dot = disc.firstElementChild;

@@ -44,8 +44,7 @@ export function forget_fault() {
   if ($("message").classList.contains("error") && !stays) $("message").hidden = true;
 }
 
-/// Returns the text of an error for readers: without the names of its command and property, the folder of a received file, and
-/// advice for command lines.
+/// Returns an error's text without its command and property, the folder of a received file, and advice for shells.
 export const sentence_of = (error, word = "open") => error.replace(new RegExp(`^${word}: ([a-z]+\\.[a-z_]+: )?`), "")
   .replace(/\/\S*\/meniscus-[0-9a-f]{32}\//g, "").replace("add --trajectory with a file that has them", "open its trajectory together with it")
   .replace(/; [^;]*--[a-z][^;]*$/, "").replace(/--(?=[a-z])/g, "");

@@ -4,7 +4,7 @@
 
 const kBank = "https://files.rcsb.org/download/";  // the only other host that connection.cpp allows
 
-/// Returns the code of an entry as in the names of the bank's files, "4hhb" or "pdb_10004hhb"; undefined for other texts.
+/// Returns the code of an entry as the bank's file names have it, "4hhb" or "pdb_10004hhb"; undefined for other texts.
 export function code_of(text) {
   const [, short, long] = text.trim().toLowerCase().match(/^(?:pdb_0000)?([1-9][a-z0-9]{3})$|^(pdb_[a-z0-9]{8})$/) ?? [];
   return short ?? long;

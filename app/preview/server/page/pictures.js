@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's pictures, where this browser does not cast the figure itself: what a Viewer asks of its caster.
+// Shows the program's pictures if this browser does not cast the figure: a Viewer uses it like a caster.
 
 const kind_text = (kind) => ["cap", "shape"].includes(kind) ? kind : `${kind} patch`;
 
 export class Pictures {
-  /// ask(command) resolves to the program's reply; state() is what the program shows, origin() from where the viewer counts.
+  /// ask(command) resolves to the program's reply, state() returns the program's state, origin() the viewer's origin.
   constructor(canvas, ask, state, origin) {
     Object.assign(this, { canvas, ask, state, origin });
   }
@@ -15,7 +15,7 @@ export class Pictures {
   /// Returns the radius of a ball around all atoms, in Å.
   get radius() { return length(minus(this.state().high, this.state().low)) / 2; }
 
-  /// Draws a picture, in the size in which it is shown. Returns its own width as a share of that.
+  /// Draws a picture in the size in which it is shown. Returns the picture's own width as a share of that.
   async show(blob, { width, height }) {
     const bitmap = await createImageBitmap(blob, { colorSpaceConversion: "none" }), share = bitmap.width / width;
     const { canvas } = this;
@@ -27,7 +27,7 @@ export class Pictures {
     return share;
   }
 
-  /// What a pixel shows, as Viewer.pick() has it; also exposed_area and area_follows. more: members of the question.
+  /// Returns what a pixel shows as Viewer.pick() does, with exposed_area and area_follows. more: part of the question.
   async pick(x, y, more = { area: false }) {
     const { width, height } = this.canvas;
     if (x < 0 || y < 0 || x >= width || y >= height) return null;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program adds to the stage: its sections, and commands from input; pictures and state from what it says.
+// Connects the stage to the program: shows its sections, sends commands from input, and shows its pictures and state.
 import { is_worth_timing, time_casting, webgl_device, who_draws } from "./casting.js";
 import { answers, Connection } from "./connection.js";
 import { contents_controls } from "./contents.js";
@@ -19,15 +19,15 @@ remember_sections(["cutting", "viewing"]);
 
 const canvas = $("picture"), stage = $("stage");
 const numbered = new Set();  // colour schemes that take a map
-let viewer = null;     // from the first state on
-let state = null;      // what the program shows
-let told_states = 0;   // how many states were asked for and told
-let controls = false;  // does this page decide?
+let viewer = null;     // exists after the first state
+let state = null;      // the state that the program shows
+let told_states = 0;   // how many requested states were received
+let controls = false;  // true if this page controls the preview
 let shown = null;      // the message of the picture in the canvas
-let full_picture = null;  // its PNG, if it is full
+let full_picture = null;  // the picture's PNG, if it has full quality
 let outstanding = 0;   // commands without a reply
 let newest = 0;        // the revision of the latest reply
-let schemes = [];      // words of the colour schemes there are
+let schemes = [];      // words of the available colour schemes
 
 const server = new Connection({
   picture: (message, bytes) => show_program_picture(message, bytes).finally(want),
@@ -39,7 +39,7 @@ const server = new Connection({
     sessionStorage.removeItem(kOpened);
     server.ask({ command: "choices" }).then(fill_choices);
     writing.begin();
-    await fit();  // before a picture is asked for, which would have another size
+    await fit();  // before a picture is requested, which would have another size
   },
   role: (message) => { set_role(message.controls); fit(); },
   progress: (message) => say_working(message.what),
@@ -52,7 +52,7 @@ const server = new Connection({
   },
 });
 
-/// The program's sections, each in its place of the stage.
+/// Moves the program's sections to their places on the stage.
 function place_sections() {
   for (const part of $("program").content.children) {
     const { before, in: within } = part.dataset;
@@ -65,13 +65,12 @@ function place_sections() {
   $("write").noValidate = false;
 }
 
-const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
+const kStep = 700;  // the next command after so many ms without one is a separate step for undo
 const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "save", "render_command", "end_step", "undo", "redo"]);
 const changes_state = new Set(["key", "keep_scene", "forget_scene", "time_scene", "play", "pause", "save"]);
 let last_change = 0;
 
-/// Carries out a command; a refusal is said, to the controls it came from if they can tell it. Returns the reply, or
-/// null.
+/// Carries out a command; refuse(text) shows a refusal. Returns the reply, or null.
 async function command(word, values = {}, refuse = (text) => tell(text, true)) {
   if (is_opening) return null;  // the next molecule would discard the change
   if (word !== "camera") tell_camera();
@@ -93,16 +92,16 @@ async function command(word, values = {}, refuse = (text) => tell(text, true)) {
   return reply.ok ? reply : null;
 }
 
-/// Sets a property; if that is refused the controls show again what there is.
+/// Sets a property; if that is refused, the controls show the old state again.
 const set = (key, value) => command("set", { key, value }).then((reply) => { if (!reply && state) apply_state(state); });
 
-/// Asks the program what it has, with the camera that is seen here.
+/// Asks the program a question after it got the present camera.
 function ask(question) {
   tell_camera();
   return server.ask(question);
 }
 
-/// Shows what changed without a new picture.
+/// Shows changes that make no new picture.
 async function ask_state() {
   const next = await server.ask({ command: "state" });
   if (!next.ok) return;
@@ -110,7 +109,7 @@ async function ask_state() {
   apply_state(next);
 }
 
-/// The program sends a figure, if the change made another one, before it tells the state.
+/// Waits for the state after a change. If the change makes another figure, the program sends it before the state.
 async function follow_change(revision) {
   due = revision;
   await ask_state();
@@ -118,27 +117,27 @@ async function follow_change(revision) {
   note_rest();
 }
 
-/// At rest the stage shows, in full, what all commands came to.
+/// At rest the stage shows the result of all commands in full quality.
 const has_picture = () => Boolean(shown?.full) && outstanding === 0 && shown.state.revision >= newest && JSON.stringify(file_camera()) === told_text;
 const is_at_rest = () => !viewer?.rests_here ? has_picture() : is_cast && due === 0 && outstanding === 0;
 function note_rest() {
   canvas.dataset.rest = String(Boolean(viewer) && is_at_rest());
   const casts = Boolean(viewer?.casts) && (viewer.rests_here || !has_picture());
   $("pictures").hidden = casts;
-  $("labels").toggleAttribute("hidden", !casts);  // pictures of the program have theirs
+  $("labels").toggleAttribute("hidden", !casts);  // the program's pictures contain labels
 }
 
 $("take").addEventListener("click", () => server.request("control"));
 
 // The camera: the page moves it, and sends it to the program
 
-let told_text = "";   // the camera that both have
-let adopted = "";     // the program's, as it was told last
+let told_text = "";   // the camera that both the page and the program have
+let adopted = "";     // the latest camera that the program sent
 let flights = 0;      // cameras without a reply
 let camera_timer = 0;
-const kCameraRest = 150;  // ms that a camera rests before it is told, where this browser draws
+const kCameraRest = 150;  // the camera is sent when it has rested for so many ms, where this browser draws
 
-/// The camera as files have it, in the molecule's coordinates.
+/// Returns the camera as files have it, in the molecule's coordinates.
 function file_camera() {
   const { projection, vertical_fov, height, ...place } = told_camera(viewer.camera, viewer.figure.origin);
   return { ...place, projection, ...(projection === "perspective" ? { vertical_fov } : { height }) };
@@ -147,7 +146,7 @@ function file_camera() {
 function tell_camera() {
   clearTimeout(camera_timer);
   if (!viewer) return;
-  if (!controls) viewer.camera = page_camera(state.camera, viewer.camera, viewer.figure.origin);  // who looks on turns nothing
+  if (!controls) viewer.camera = page_camera(state.camera, viewer.camera, viewer.figure.origin);  // watchers stay
   const camera = file_camera(), text = JSON.stringify(camera), is_told = text === told_text;
   told_text = text;
   if (is_told || !controls) return;
@@ -155,7 +154,7 @@ function tell_camera() {
   command("camera", { camera }).then(() => { --flights; if (viewer.casts) want(); else tell_camera(); });
 }
 
-/// Takes the program's camera, unless it has not heard of a newer one from here.
+/// Takes the program's camera, unless this page has moved its own since.
 function adopt_camera({ camera, revision }) {
   const text = JSON.stringify(camera);
   if (text === adopted || flights > 0 || revision < newest || JSON.stringify(file_camera()) !== told_text) return;
@@ -184,11 +183,11 @@ let largest_file = 0;    // the server's limit of a file, in bytes
 function show_other_molecule() {
   for (const key of Object.keys(sessionStorage)) if (key.startsWith("meniscus ")) sessionStorage.removeItem(key);
   if (controls) sessionStorage.setItem(kOpened, "yes");
-  state = null;  // no question about unsaved changes
+  state = null;  // prevents the question about unsaved changes
   location.reload();
 }
 
-/// A fresh page, once the server answers again.
+/// Loads the page again when the server answers again.
 async function connect_again() {
   let answer = "gone";
   while (answer === "gone") {
@@ -198,11 +197,11 @@ async function connect_again() {
   if (answer === "refused")
     return end("The preview was started again under another address, which the terminal shows.", true);
   sessionStorage.setItem(kAgain, "yes");
-  state = null;  // what is gone cannot be lost
+  state = null;  // prevents the question about unsaved changes, which are lost already
   location.reload();
 }
 
-/// The last word.
+/// Shows a last notice and disables the controls.
 function end(text, is_error) {
   say_anew(text, is_error, true);
   $("controls").disabled = true;
@@ -214,34 +213,34 @@ function set_role(in_control) {
   allow_controls();
 }
 
-/// Sends the choice, once there is something to be changed.
+/// Enables the controls if this page is in control and there is a state to change.
 function allow_controls() { $("controls").disabled = !controls || !state; }
 
 // Pictures
 
 const pictures = new Pictures($("pictures"), ask, () => state, () => viewer.figure.origin);
 const kept = new Map();  // tables of figures, by their digests
-let device = webgl_device();  // of this browser; empty: it casts nothing
-const times = { browser: null, program: { draft: Infinity, rest: Infinity, took: 0 } };  // milliseconds, for as many pixels; took: of a draft
-let figures = 0;        // how many have come
-let unavailable = "";   // why this browser cannot cast what the program shows
-let due = 0;            // the revision of a change that may make another figure; 0: it has come
-let is_cast = false;    // is the browser's picture at rest whole?
+let device = webgl_device();  // the device of this browser; empty: it casts nothing
+const times = { browser: null, program: { draft: Infinity, rest: Infinity, took: 0 } };  // ms; took: of a draft
+let figures = 0;        // how many figures have come
+let unavailable = "";   // why this browser cannot cast the program's figure
+let due = 0;            // the revision of a change that may make another figure; 0 after it has come
+let is_cast = false;    // true if the browser's picture at rest is complete
 
 const is_faster = (what) => $("drawn").value === "browser" || ($("drawn").value === "fastest" && times.browser?.[what] < times.program[what]);
 const wants_figures = () => device && shown?.full && (is_faster("draft") || (!times.browser && $("drawn").value === "fastest" && is_worth_timing(device, times.program)));
 
-/// Asks for what is shown next.
+/// Asks for the next picture or figure.
 function want() {
   if (!viewer?.casts || (!viewer.rests_here && !has_picture())) server.request("picture");
   if (wants_figures()) server.request("figure", { has: [...kept.keys()] });
 }
 
-/// Lets this browser draw, or the program, as it is due.
+/// Chooses whether this browser or the program draws.
 function settle() {
   const casts = Boolean(device && figures > 0 && !unavailable && is_faster("draft"));
   if (casts !== viewer.casts || !viewer.caster) viewer.show_pictures(casts ? null : pictures);
-  if (!casts) $("legend").textContent = "";  // it is of the figure that was cast
+  if (!casts) $("legend").textContent = "";  // the legend belongs to the figure that was cast
   viewer.rests_here = casts && !state.values["legend.shown"] && is_faster("rest");
   $("drawn-by").textContent = who_draws({ device, unavailable, times, casts, rests: viewer.rests_here });
   note_rest();
@@ -257,7 +256,7 @@ async function show_program_figure(message, bytes) {
     const depths = cuts.length === figure.views[0].planes.length && cuts.some(Boolean) ? cuts.map((text) => text && Number(text)) : undefined;
     const is_told = JSON.stringify(file_camera()) === told_text;
     viewer.show_figure({ ...figure, number: ++figures, depths });
-    if (is_told) told_text = JSON.stringify(file_camera());  // from another origin it is rounded otherwise
+    if (is_told) told_text = JSON.stringify(file_camera());  // another origin rounds the coordinates differently
   }
   if (message.state.revision >= state.revision) apply_state(message.state);
   if (figures > 0 && !times.browser && $("drawn").value === "fastest") time_this_browser();
@@ -298,7 +297,7 @@ async function show_program_picture(message, bytes) {
 $("times").addEventListener("toggle", () => { $("fps").hidden = !$("times").open; });
 
 const a_second = (fps) => `${fps < 10 ? fps.toFixed(1) : Math.round(fps)} a second`;
-let moving = "";  // pictures a second, of the last one that was not full
+let moving = "";  // pictures per second of the last one that was not full
 function show_stats(stats, full) {
   const ms = (value) => `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
   if (!full && Number(canvas.dataset.pictures) > 2) moving = a_second(stats.fps);
@@ -309,7 +308,7 @@ function show_stats(stats, full) {
     ["encoding", ms(stats.encode_milliseconds)]]));
 }
 
-/// The server draws as many pixels as the canvas has on this screen.
+/// Asks for pictures with as many pixels as the canvas has on this screen.
 function fit() {
   if (!controls) return;
   const scale = Math.min(window.devicePixelRatio || 1, 2);
@@ -333,22 +332,22 @@ open_controls({ ask: (question) => server.ask(question), may: () => controls, lo
   work: (what) => { is_opening = Boolean(what); if (what) say_working(what); else say_anew(""); }, fail: (error) => say_fault(sentence_of(error)) });
 const writing = write_controls({ ...context, picture: () => has_picture() ? full_picture : null, changed: ask_state });
 
-/// Colours by another scheme; the rules stay.
+/// Colours by another scheme and keeps the rules.
 function set_scheme(scheme) { set("surface.color", [scheme, ...state.values["surface.color"].filter((entry) => entry.includes("="))]); }
 
-/// At once: what is typed behind the key that opens a field is for the field, however late the session replies.
+/// Focuses the name of the output at once, so that the next typed letters go there however late the session replies.
 function go_to_name() {
   document.body.classList.remove("bare");
   $("export-name").focus();
   $("export-name").select();
 }
 
-/// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
+/// Sets a control, unless the user types in it or drags it ahead of the pictures.
 function set_value(control, value) {
   if (control !== document.activeElement || (control.type === "range" && outstanding === 0)) control.value = value;
 }
 
-/// The stage begins with the program's pictures.
+/// Begins the stage with the program's pictures.
 function begin(first) {
   const views = [{ camera: page_camera(first.camera), planes: [], hatching: [], opacity: 1 }];
   viewer = window.meniscus = new Viewer({ views, size: [first.width, first.height], origin: [0, 0, 0], labels: [], schemes: [], samples: [] }, pictures);
@@ -410,7 +409,7 @@ function apply_state(next) {
 
 const kOneColor = "one colour";
 
-/// Shows by what the surface is coloured.
+/// Shows the scheme that colours the surface.
 function show_scheme(scheme) {
   const is_one = scheme.startsWith("#");
   if (is_one) $("one-color").value = scheme;
@@ -463,5 +462,5 @@ $("rate").addEventListener("change", () => { if (state?.playing) command("play",
 
 canvas.addEventListener("pointerdown", () => { last_change = 0; });
 
-/// The server keeps the figure, but nobody may come back to it.
+/// Warns before unsaved changes of the figure are lost: the server keeps them, but the user may not come back.
 window.addEventListener("beforeunload", (event) => { if (controls && state?.unsaved) event.preventDefault(); });

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Controls made from the table of properties, with its words, limits and help.
+// Makes controls from the table of properties, with its words, limits and help.
 
 const kSuchAs = { "image.width": "such as 85mm", "image.dpi": "300" };
 const kWords = { ses: "solvent-excluded", sas: "solvent-accessible", vdw: "van der Waals" };
 export const hex_of = (color) => ({ black: "#000000", white: "#ffffff" })[color] ?? (/^#/.test(color) ? color : null);
 
-/// Returns the control of a property, without its words.
+/// Returns the control of a property, without its label.
 function control_of({ type, words, lowest, highest, step, slider_end }) {
   const input = (kind, limits = {}) => Object.assign(document.createElement("input"), kind ? { type: kind } : { autocomplete: "off", spellcheck: false }, limits);
   if (type === "flag") return input("checkbox");
@@ -23,7 +23,7 @@ function control_of({ type, words, lowest, highest, step, slider_end }) {
 /// Fills the elements that name properties; command("set", {key, value}) changes them. "look.*" stands for all of a section
 /// that no other element names. Returns fill(properties) and show(values).
 export function property_controls({ command }) {
-  const controls = new Map();  // by key
+  const controls = new Map();  // controls by key
   let shown = {};
 
   function row(property) {

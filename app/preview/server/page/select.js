@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is selected: atoms, residues and chains that were clicked on the stage, in the list or in the sequence, and a
-// card with what can be done with them.
+// Selects atoms, residues and chains on the stage, in the list or in the sequence; a card has actions on them.
 import { element, kShapes, rows_of, shape_words } from "./figure.js";
 
 const kSeries = 400;                             // ms between the clicks of a double or triple click
-const kNear = 6;                                 // CSS pixels between them
-const kAround = 5;                               // Å
+const kNear = 6;                                 // CSS pixels between the clicks of a double or triple click
+const kAround = 5;                               // radius of "around" the selection, in Å
 const kHoverRest = 120;                          // ms that the pointer rests before an atom is named
 const kLevels = ["atom", "residue", "molecule"];  // selected by one, two and three clicks
 
@@ -51,13 +50,13 @@ export function select_controls({ command, set, ask, say, viewer, page_camera })
   const card = $("card"), listeners = [];
   follow_hover(viewer);
   let entries = [], series = { at: -1e9 }, state = null, located = null, key = "", latest = 0, offered = "", labels = [], placed = 0;
-  let size = null, written = null;  // of the molecule's part of the picture; the labels that the viewer has
+  let size = null, written = null;  // the size of the molecule's part of the picture, and the viewer's labels
 
   const text = () => entries.length === 1 ? entries[0].selection
     : entries.map(({ selection }) => `(${selection})`).join(" or ");
   const has = (selection) => entries.some((entry) => entry.selection === selection);
 
-  /// Shows other entries as selected; place: where the card belongs on the stage, CSS pixels.
+  /// Selects other entries. place: the card's place on the stage, in CSS pixels.
   function become(next, place = null) {
     entries = next;
     ++latest;
@@ -73,7 +72,7 @@ export function select_controls({ command, set, ask, say, viewer, page_camera })
     else become(others.length < entries.length ? others : [...others, entry], place);
   }
 
-  /// found: of Viewer.pick(), or null. Two clicks select the residue, three the chain.
+  /// Selects what was clicked; two clicks select the residue, three the chain. found: Viewer.pick() or null.
   async function click(found, event) {
     const goes_on = event.timeStamp - series.at < kSeries &&
       Math.hypot(event.clientX - series.x, event.clientY - series.y) < kNear;
@@ -212,7 +211,7 @@ export function select_controls({ command, set, ask, say, viewer, page_camera })
     return made;
   }
 
-  /// Rings around the atoms, and labels: on pictures of the program here, else by what casts.
+  /// Draws rings around the atoms, and labels on the program's pictures; pictures of this browser have labels already.
   function draw() {
     const { width = 1, height = 1, camera } = state ?? {}, svg = $("rings"), { figure } = viewer();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);

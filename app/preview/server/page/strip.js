@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The strip: scenes that are kept for a film, and the way from each to the next.
+// Controls of the strip: scenes that are kept for a film, and the transition from each to the next.
 import { element, remove_button } from "./figure.js";
 
 const kThumb = 112;  // pixels across a small picture
@@ -19,7 +19,7 @@ export function strip_controls({ command, viewer }) {
   let known = "";  // the numbers of the scenes in the list
   const thumbs = new Map();  // small pictures by the numbers of their scenes
 
-  /// Takes the small picture of a scene, which the stage shows.
+  /// Keeps a small picture of the scene that the stage shows.
   const take = async (number) => {
     thumbs.set(number, await thumbnail(viewer()));
     known = "";
@@ -29,7 +29,7 @@ export function strip_controls({ command, viewer }) {
     const reply = await command("keep_scene", values);
     if (reply) take(reply.number);
   };
-  /// Shows a scene. A page that was loaded again takes its small picture once it is there at rest.
+  /// Shows a scene. A page that was loaded again takes its small picture once the stage shows it at rest.
   const recall = async (index, number) => {
     if (!await command("strip", { place: index }) || thumbs.has(number)) return;
     const wait = setInterval(() => {
@@ -43,12 +43,12 @@ export function strip_controls({ command, viewer }) {
   $("strip").addEventListener("input", () => command("strip", { place: $("strip").valueAsNumber }));
   $("play-strip").addEventListener("click", async () => {
     if (strip.playing) return command("pause");
-    // At its end it starts anew. Undo goes back to what was shown before the film.
+    // At its end the film begins again. Undo goes back to the view before the film.
     if (await command("strip", { place: strip.place < strip.scenes - 1 ? strip.place : 0 }))
       await command("play", { strip: true });
   });
 
-  /// Returns a field for seconds of a scene.
+  /// Returns a field for a time of a scene in seconds.
   const seconds = (index, what, words) => {
     const field = element("input", { type: "number", min: 0, max: 3600, step: "any", name: what });
     field.addEventListener("change", () => command("time_scene", { index, [what]: field.valueAsNumber }));

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writing: pictures, films, scenes and files into the program's folder, from which this browser can download them.
+// Writes pictures, films, scenes and files into the program's folder, from which this browser can download them.
 import { element } from "./figure.js";
 import { hex_of } from "./properties.js";
 
 const kEndings = { film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json", camera_path: ".json" };
 const kFilms = { strip: "Strip", turntable: "Turntable", frames: "Frames" };
 
-/// picture(): the PNG on the stage, if it is there in full; changed(): is called after something was written. Returns
-/// show(state), and begin(), which shows what an earlier page has begun.
+/// picture() returns the PNG on the stage if it has full quality; changed() is called after something was written.
+/// Returns show(state), and begin(), which shows an export that an earlier page has begun.
 export function write_controls({ command, ask, say, picture, changed }) {
   let state = null;
-  let offered = "";  // what the films on offer depend on
-  let taken = "";    // the sizes that a scene asked for
+  let offered = "";  // the values on which the list of films depends
+  let taken = "";    // the sizes that a scene requested
 
-  /// Returns what is asked of an exported picture.
+  /// Returns the size and the number of samples that the fields ask for.
   const wishes = () => {
     const [width, height, samples] = ["width", "height", "export-samples"].map((id) => $(id).valueAsNumber), ratio = state.width / state.height;
     const sides = { width: width || Math.max(16, Math.round(height * ratio)), height: height || Math.max(16, Math.round(width / ratio)) };
     return { samples: samples || state.values["image.samples"], transparent: $("export-transparent").checked, ...((width || height) && sides) };
   };
 
-  /// Lists the films that can be made, with what each of them gives.
+  /// Lists the films that can be made, with the number of pictures of each.
   const offer_films = async () => {
     const { width, height } = wishes(), told = await ask({ command: "films", ...(width && { width, height }) });
     if (!told.ok) return;
@@ -34,11 +34,11 @@ export function write_controls({ command, ask, say, picture, changed }) {
   };
   for (const id of ["width", "height"]) $(id).addEventListener("change", offer_films);
 
-  /// Lists what was written: a link to each file, and the place of all.
+  /// Lists the written files with a link to each, and their folder.
   const list_written = (written = []) => $("written").replaceChildren(...written.map(({ name, path, folder }) => element("li", {},
     folder ? element("span", { textContent: name, title: path }) : element("a", { href: `files/${name}`, download: name, textContent: name, title: path }))));
 
-  /// Asks how far the export is, and lists what was written.
+  /// Asks for the progress of the export, and lists the written files.
   const ask_written = async () => {
     const told = await ask({ command: "export_state" });
     list_written(told.written);
@@ -49,7 +49,7 @@ export function write_controls({ command, ask, say, picture, changed }) {
     event.preventDefault();
     const format = event.submitter?.value ?? "png", path = $("export-name").value + (kEndings[format] ?? $("ending").value);
     const values = { path, force: $("export-force").checked, ...wishes() };
-    // What is shown is at hand: the browser has it, too.
+    // The browser already has the picture that is shown.
     const at_hand = path.endsWith(".png") && !$("width").value && !$("height").value && !$("export-samples").value && !values.transparent ? picture() : null;
     const more = format === "film" ? { of: $("film-of").value } : { archive: format === "povray" };
     const reply = await (format === "scene" || format === "story" ? command("save", { ...values, strip: format === "story" })
@@ -69,7 +69,7 @@ export function write_controls({ command, ask, say, picture, changed }) {
   });
   $("job-cancel").addEventListener("click", () => command("cancel_export"));
 
-  /// Shows how far the export is until it is done; the view can be turned meanwhile.
+  /// Shows the progress of the export until it is done; the view can be turned meanwhile.
   async function follow() {
     const buttons = document.querySelectorAll("#writers button");
     for (const button of buttons) button.disabled = true;

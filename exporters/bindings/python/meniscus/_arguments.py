@@ -87,7 +87,7 @@ def plain(values: Any, name: str, power: Optional[int]) -> Any:
             raise InputError(f"{name} is in {_unit_of(values)}; give numbers without a unit")
         try:
             return _converted(values, power)
-        except Exception as error:  # which class it is depends on the package
+        except Exception as error:  # the class depends on the package
             raise InputError(f"{name} is in {_unit_of(values)}, not in a unit of Å^{power}: {error}") from None
     units = getattr(values, "attrs", {}).get("units")  # xarray
     if units is not None and units not in _NAMES_OF_ANGSTROM:

@@ -88,7 +88,7 @@ def real_array(values: Any, name: str, power: Optional[int] = None) -> AnyArray:
         array = np.asarray(values)
         if array.dtype.kind == "O" and all(isinstance(value, Real) for value in array.flat):
             array = array.astype(np.float64)
-    except Exception as error:  # which class it is depends on the package
+    except Exception as error:  # the class depends on the package
         raise InputError(f"{name}: {error}") from None
     if array.dtype.kind not in "fiu":
         what = {"b": "true or false", "c": "complex numbers", "U": "text", "S": "text"}.get(array.dtype.kind,

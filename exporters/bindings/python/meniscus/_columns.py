@@ -112,7 +112,7 @@ class _Column(_Array):
         return self.view(np.ndarray).__reduce_ex__(protocol)
 
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
-        plain = array.view(np.ndarray)  # as results of functions are
+        plain = array.view(np.ndarray)  # results of functions are plain arrays
         return plain[()] if return_scalar or array.ndim == 0 else plain
 
 

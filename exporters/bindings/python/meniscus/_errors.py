@@ -22,7 +22,7 @@ class Error(Exception):
     ...     isinstance(error, meniscus.InputError), error.filename
     (True, 'none.pdb')"""
 
-    def __str__(self) -> str:  # that of KeyError would quote the message
+    def __str__(self) -> str:  # KeyError would quote the message
         return str(self.args[0]) if self.args else ""
 
 
@@ -105,7 +105,7 @@ def _both(base: Any, kinds: tuple[type[Exception], ...]) -> Any:
 def also(base: type[Error], kinds: tuple[type[Exception], ...], message: str, file: Any = None) -> Error:
     """Returns an error of class `base` that is caught as one of `kinds`, too. file: the path of an error about a file,
     which becomes its `filename`."""
-    both: Any = base  # which mypy does not know to be hashable
+    both: Any = base  # mypy does not know that it is hashable
     error: Error = _both(both, kinds)(message)
     number = next((_NUMBERS[kind] for kind in kinds if kind in _NUMBERS), None)
     if number is not None and isinstance(error, OSError):

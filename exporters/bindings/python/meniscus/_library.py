@@ -123,7 +123,7 @@ def interruptible(function: Callable[[], Any]) -> Any:
             kept.append(frame)
             frame = frame.f_back
         if not finished:  # otherwise this thread may have the lock
-            atexit.register(_wait_for, done)  # after those of the package, so that it is called before them
+            atexit.register(_wait_for, done)  # called before the exit functions of the package
         raise
     if error is not None:
         raise error

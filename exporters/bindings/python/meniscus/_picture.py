@@ -153,7 +153,7 @@ def color_of(name: str) -> tuple[float, float, float]:
     try:
         call("structure_colors", _atom().pointer, name.encode(), color.ctypes.data)
     except UsageError as error:
-        if "is not one of" not in str(error):  # of a build without colours
+        if "is not one of" not in str(error):  # a build without colours
             raise
         raise InputError(f"colors has {name!r}, no colour such as red or #rrggbb; Structure.colors() has those of "
                          "schemes") from None

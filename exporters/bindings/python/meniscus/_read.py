@@ -58,7 +58,7 @@ def models_of(path: Union[Path, IO[Any]]) -> list[Structure]:
         first, whole = handle_of(file), handle_of(file, model="all")
     name = os.path.basename(os.fsdecode(file)) if is_content(path) else None
     for warning in Structure._read(first, name).warnings:
-        if "model=" in warning:  # that only one model is used
+        if "model=" in warning:  # a warning that only one model is used
             continue
         warn(f"{os.fsdecode(file) if name is None else name}: {warning}")
     return Structure._read(whole, name).split("model")

@@ -144,7 +144,7 @@ class Scene(SceneAttributes, Mapping[str, Any]):
     '80x60'"""
 
     _handle: lib.Handle
-    _molecule: Optional[Structure]  # which a temporary file holds
+    _molecule: Optional[Structure]  # the molecule in the temporary file
 
     def __init__(self, molecule: Any = None, /, **values: Unpack[SceneValues]) -> None:
         self._hold(lib.Handle("scene", "scene_new"), None)
@@ -269,7 +269,7 @@ class Scene(SceneAttributes, Mapping[str, Any]):
     def __delitem__(self, name: str) -> None:
         self[name] = None
 
-    def __eq__(self, other: object) -> bool:  # not that of a mapping, because scenes change
+    def __eq__(self, other: object) -> bool:  # replaces that of mappings, because scenes change
         return self is other
 
     def __hash__(self) -> int:

@@ -44,7 +44,7 @@ def _mdanalysis(atoms: Any, every: bool) -> Source:
         if found["chains"] is None or not any(found["chains"]):
             found["chains"] = found["segments"]
         if found["chains"] is not None:
-            found["chains"] = ["" if chain == "SYSTEM" else chain for chain in found["chains"]]  # stands for none
+            found["chains"] = ["" if chain == "SYSTEM" else chain for chain in found["chains"]]  # SYSTEM: no chain
         file = getattr(getattr(atoms, "universe", None), "filename", None)
         return {**found, "name": os.path.basename(str(file or ""))}
 
@@ -177,7 +177,7 @@ def _gemmi(part: Any, every: bool) -> Source:
         return next((p for p in reversed(atom[1]) if hasattr(p, attribute)
                      and hasattr(p, "seqid") == (attribute == "seqid")), None)
 
-    models = list(part) if hasattr(part, "assemblies") else [part]  # of a Structure
+    models = list(part) if hasattr(part, "assemblies") else [part]  # a Structure has several
     first = atoms(models[0])
     return Source([atom.element.atomic_number for atom, _ in first],
                   (np.array([atom.pos.tolist() for atom, _ in atoms(model)]) for model in models),

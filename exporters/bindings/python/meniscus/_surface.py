@@ -42,7 +42,7 @@ def _summary_of(handle: lib.Handle) -> header.Summary:
     """Returns the numbers of a surface."""
     summary = header.Summary(ctypes.sizeof(header.Summary))
     lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
-    summary.owner = handle  # which owns the text in summary.device
+    summary.owner = handle  # owns the text in summary.device
     return summary
 
 

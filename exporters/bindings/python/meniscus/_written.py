@@ -127,7 +127,7 @@ def cif_of(column: Callable[[int], AnyArray], classes: AnyArray, elements: Texts
               *(_numbers(positions[:, axis]) for axis in range(3)), occupancies, b_factors, numbers, residues, chains,
               names, models]
     head = "".join(f"_atom_site.{key}\n" for key in _KEYS)
-    for key, values in (("charge", charges), ("auth_segid", segments)):  # not of the dictionary, but read by others
+    for key, values in (("charge", charges), ("auth_segid", segments)):  # other programs read these, too
         if any(value not in "?." for value in values):
             head += f"_atom_site.{key}\n"
             fields.append(values)

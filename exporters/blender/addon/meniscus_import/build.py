@@ -189,7 +189,7 @@ def remembered_path(path):
     path = os.path.abspath(path)
     try:
         return bpy.path.relpath(path) if bpy.data.filepath else path
-    except ValueError:  # on another drive of Windows
+    except ValueError:  # the file is on another drive of Windows
         return path
 
 

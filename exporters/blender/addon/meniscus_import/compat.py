@@ -173,7 +173,7 @@ def math_node(tree, operation, *operands):
 
 
 def can_drop_files():
-    """True if files can be dropped into the window. FileHandler was added in 4.1."""
+    """Returns True if files can be dropped into the window. FileHandler was added in 4.1."""
     return hasattr(bpy.types, "FileHandler")
 
 
@@ -261,12 +261,12 @@ def switch_geometry(tree, condition, if_true, otherwise):
 
 
 def keeps_realized_normals():
-    """True if realized instances keep their custom normals, which are an attribute from 4.5 on."""
+    """Returns True if realized instances keep their custom normals, which are an attribute from 4.5 on."""
     return bpy.app.version >= (4, 5, 0)
 
 
 def exports_by_mesh_name():
-    """True if the exporters of Alembic and USD write a new mesh whenever the name of the shown mesh changes."""
+    """Returns True if the exporters of Alembic and USD write a new mesh whenever the name of the shown mesh changes."""
     return bpy.app.version >= (5, 2, 0)
 
 

@@ -22,7 +22,7 @@ _last_message = {}  # identity of an object -> the last message about it
 
 
 def is_fixed(item):
-    """True if an object belongs to a library, so that it must not be changed. A message says so once."""
+    """Returns True if an object belongs to a library, so that it must not be changed. A message says so once."""
     if item.library is None:
         return False
     report(item, f"{item.name} comes from {item.library.filepath} and stays as it was saved there; a library override "
@@ -116,7 +116,7 @@ def _count_from(folder):
             path = at if noted == stored else path_of(item, name)
             try:
                 wanted = bpy.path.relpath(path, start=folder)
-            except ValueError:  # on another drive of Windows
+            except ValueError:  # the file is on another drive of Windows
                 wanted = path
             item[AT + name] = [wanted, path]
             if wanted != stored and name in SETTINGS:

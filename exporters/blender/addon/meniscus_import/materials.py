@@ -91,7 +91,7 @@ def shader_of(material):
 
 
 def _is_of_an_old_import(material, role):
-    """True if a material was made by a version of the add-on that did not mark its materials."""
+    """Returns True if a material was made by a version of the add-on that did not mark its materials."""
     return (material.name == f"Meniscus {role}" and MARK not in material and material.node_tree is not None and
             any(node.type == "ATTRIBUTE" and node.attribute_name == "Color" for node in material.node_tree.nodes))
 
@@ -157,7 +157,7 @@ def set_looks(tree, shader, looks):
                                 "Specular").default_value = min(5.0 * looks["specular"], 1.0)
     if "shininess" in looks:
         shader.inputs["Roughness"].default_value = (2.0 / (looks["shininess"] + 2.0)) ** 0.25
-    if "roughness" in looks and "Diffuse Roughness" in shader.inputs:  # from 4.3 on
+    if "roughness" in looks and "Diffuse Roughness" in shader.inputs:  # Blender 4.3 and later
         shader.inputs["Diffuse Roughness"].default_value = looks["roughness"]
     if "ambient" in looks:  # this share is emitted independently of lights; the rest is lit
         color = shader.inputs["Base Color"].links[0].from_socket

@@ -18,17 +18,17 @@ shortened = reprlib.repr
 
 
 def is_number(value, low=-TOO_LARGE, high=TOO_LARGE):
-    """True if a value is a finite number from low to high. Booleans are not numbers."""
+    """Returns True if a value is a finite number from low to high. Booleans are not numbers."""
     return type(value) in (int, float) and low <= value <= high
 
 
 def are_numbers(values, count, low=-TOO_LARGE, high=TOO_LARGE):
-    """True if a value is a list of `count` numbers from low to high."""
+    """Returns True if a value is a list of `count` numbers from low to high."""
     return isinstance(values, list) and len(values) == count and all(is_number(value, low, high) for value in values)
 
 
 def is_text(value):
-    """True if a value is a text that Blender accepts: without zero characters and lone surrogates."""
+    """Returns True if a value is a text that Blender accepts: without zero characters and lone surrogates."""
     return isinstance(value, str) and not any(each == "\0" or "\ud800" <= each <= "\udfff" for each in value)
 
 
@@ -435,7 +435,7 @@ def check_names(path, array, numbers, names):
 
 
 def is_closed(triangles):
-    """True if every edge has exactly two triangles, which traverse it in opposite directions."""
+    """Returns True if every edge has exactly two triangles, which traverse it in opposite directions."""
     t = triangles.astype(np.uint64)
     a, b = t.ravel(), np.roll(t, -1, axis=1).ravel()
     forward = np.sort(a << np.uint64(32) | b)

@@ -37,7 +37,7 @@ def at_rest():
 
 
 def is_playing():
-    """True if the timeline plays in a window. Renders and background jobs always use fine meshes."""
+    """Returns True if the timeline plays in a window. Renders and background jobs always use fine meshes."""
     windows = () if bpy.app.background or _rendering else getattr(bpy.context.window_manager, "windows", ())
     return any(window.screen.is_animation_playing for window in windows)
 

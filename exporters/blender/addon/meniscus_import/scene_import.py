@@ -129,7 +129,7 @@ def _colors(values):
 
 
 def _is_beside(name):
-    """True if a file is in the folder of the scene or below it."""
+    """Returns True if a file is in the folder of the scene or below it."""
     return isinstance(name, str) and not os.path.isabs(name) and "\\" not in name and ".." not in name.split("/")
 
 

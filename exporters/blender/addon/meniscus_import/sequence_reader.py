@@ -125,7 +125,7 @@ def read(path):
 
 
 def is_plain(name):
-    """True if a value is the name of a file in the folder of its manifest."""
+    """Returns True if a value is the name of a file in the folder of its manifest."""
     return (isinstance(name, str) and name == os.path.basename(name) and "\\" not in name and
             name not in ("", ".", ".."))
 

@@ -164,7 +164,7 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         return sequence_reader.Timing(self.start, self.speed, self.outside)
 
     def has_proxy(self, in_motion):
-        """True if a proxy is shown. in_motion: True if a slider moves or the timeline plays."""
+        """Returns True if a proxy is shown. in_motion: True if a slider moves or the timeline plays."""
         return self.detail == "PROXY" or (self.detail == "AUTO" and in_motion)
 
     def request(self, place=0, in_motion=False):

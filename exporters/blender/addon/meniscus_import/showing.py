@@ -33,12 +33,12 @@ class Shown:
 
 
 def is_computed(item):
-    """True if an object of this file shows a computed surface."""
+    """Returns True if an object of this file shows a computed surface."""
     return item is not None and item.type == "MESH" and item.meniscus.source != "NONE" and item.library is None
 
 
 def requests_same_surface(item, other):
-    """True if two objects request the same surface at the current time."""
+    """Returns True if two objects request the same surface at the current time."""
     time = bpy.context.scene.frame_current_final
     return (is_computed(other) and item.meniscus.surface_values() == other.meniscus.surface_values() and
             place_at(item, time) == place_at(other, time))
@@ -70,7 +70,7 @@ def watch(item):
 
 
 def was_changed(item):
-    """True if the user has joined or edited an object's mesh since a surface was last requested or shown."""
+    """Returns True if the user has joined or edited an object's mesh since a surface was last requested or shown."""
     return _vertices.get(compat.identity(item.data), len(item.data.vertices)) != len(item.data.vertices)
 
 

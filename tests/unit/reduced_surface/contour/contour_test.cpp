@@ -33,7 +33,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// Up to 70 balls that overlap a first one of radius 3, as SAS balls of a protein do.
+/// Returns up to 70 balls that overlap a first one of radius 3, like SAS balls of a protein.
 Blockers surroundings(Random& random, int most) {
   Blockers blockers;
   blockers.restart(9);
@@ -45,7 +45,7 @@ Blockers surroundings(Random& random, int most) {
   return blockers;
 }
 
-/// The arcs of a circle by one ball after the other, in double precision.
+/// Returns the arcs of a circle by one ball after the other, in double precision.
 geometry::Remainder one_after_the_other(const Blockers& blockers, std::size_t circle) {
   geometry::Remainder left;
   const double w0 = blockers.first_weight();
@@ -144,7 +144,7 @@ TEST(Contour, ACircleWhoseSpheresBarelyMeetIsDecidedInQuadruplePrecision) {
   EXPECT_EQ(contour.doubtful_count(), 1u);
 }
 
-/// Whether a ball other than that of the circle holds a point.
+/// Returns whether a ball other than those of the circle holds a point.
 bool held_by_another(const Blockers& blockers, std::size_t circle, const glm::dvec3& x) {
   for (std::size_t b = 0; b < blockers.size(); ++b)
     if (b != circle && glm::dot(x - blockers[b].center, x - blockers[b].center) < blockers[b].weight) return true;
@@ -180,7 +180,7 @@ TEST(SphereCover, CirclesThatAreRuledOutAreCovered) {
   EXPECT_GT(kept, 500);
 }
 
-// Those that touch the arc behind their ends, by their labels.
+// Returns the balls that touch the arc behind its ends, by their labels.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_of(const Contour& contour, const Blockers& blockers,
                                                              std::span<const std::uint8_t> uncovered) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
@@ -194,7 +194,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_of(const Contour& cont
   return ends;
 }
 
-// And none of the others has a say.
+// No other ball changes the arcs.
 TEST(SphereCover, BallsWithOpenCirclesLeaveTheArcsThatAllLeaveNearUncoveredDirections) {
   Random random(4);
   SphereCover cover;

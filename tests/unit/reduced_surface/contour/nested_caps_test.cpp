@@ -19,13 +19,13 @@ glm::dvec3 direction(std::mt19937& random) {
   return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
 }
 
-/// How far (Å²) a point is within a ball, by its power.
+/// Returns how far (Å²) a point is within a ball, by its power.
 double depth(const Blockers::Ball& ball, const glm::dvec3& x) {
   const glm::dvec3 d = x - ball.center;
   return ball.weight - glm::dot(d, d);
 }
 
-/// Points of a cap's border, moved inwards by a share of it.
+/// Visits points of a cap's border, moved inwards by a share of it.
 template <typename Visit>
 void for_each_point(double first_weight, const Blockers::Ball& ball, std::mt19937& random, const Visit& visit) {
   const glm::dvec3 axis = ball.center / ball.distance;

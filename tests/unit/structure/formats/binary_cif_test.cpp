@@ -82,7 +82,7 @@ TEST(BinaryCif, EntitiesAndAssembliesAreThoseOfMmcif) {
                            "matrix[3][2]", "vector[1]", "vector[2]", "vector[3]"})
     operators.push_back(column(name, data<double>({0.0}, 33)));
   const Structure structure = read_bytes(
-      "a.bcif", binary_cif({category("_unknown", 1, {column("x", data<double>({0.0}, 99))}),  // which nobody asks for
+      "a.bcif", binary_cif({category("_unknown", 1, {column("x", data<double>({0.0}, 99))}),  // unused by our reader
                             category("_atom_site", 3, columns),
                             category("_entity", 1,
                                      {column("id", strings("1", {0, 1}, one)),
@@ -107,7 +107,7 @@ void expect_refused(const std::string& bytes, const std::string& message) {
   }
 }
 
-/// The three atoms with another column in place of the x.
+/// Returns the three atoms with another column in place of the x.
 std::string with_x(const Json& values, const Json& mask = nullptr) {
   std::vector<Json> columns = atom_columns();
   columns[0] = column("Cartn_x", values, mask);
@@ -145,7 +145,7 @@ TEST(BinaryCif, FilesThatUnpackToMuchAreRefused) {
   expect_refused(with_x(data<std::int32_t>({1, 2'000'000'000}, 3, {repeats})), "repeats a value 2000000000 times");
   expect_refused(with_x(data<std::int32_t>({1, -1}, 3, {repeats})), "repeats a value -1 times");
   expect_refused(binary_cif({category("_atom_site", 2'000'000'000, atom_columns())}), "has 2,000,000,000 rows");
-  // As many rows as the file has bytes, each with a thousand letters.
+  // There are as many rows as the file has bytes, each with a thousand letters.
   std::vector<Json> columns;
   const std::string padding(3'000, 'x');
   const Json places = {{"data", bytes_of<std::int32_t>({0, 4'000})},

@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// One atom with model coordinates, which may be "? ? ?", and ideal ones.
+/// Returns one atom with model coordinates, which may be "? ? ?", and ideal ones.
 std::string row(const char* component, const char* name, const char* model, const char* ideal, int charge = 0) {
   return fmt::format("{} \"{}\" {} {} {} {}\n", component, name, name[0], charge, model, ideal);
 }
@@ -77,7 +77,7 @@ TEST(ChemicalComponents, EachIsAModel) {
   EXPECT_EQ(second.report.models, 2u);
   EXPECT_EQ(second.atoms[0].residue_name, "CMO");
   EXPECT_EQ(second.report.excluded.at(kExcludedModel), 2u);
-  EXPECT_EQ(read(kWhole + kIdeal).report.warnings.size(), 2u);  // that another is there, and the coordinates
+  EXPECT_EQ(read(kWhole + kIdeal).report.warnings.size(), 2u);  // another component, and the coordinates
   const Structure all = read(kWhole + kIdeal, "all");
   EXPECT_EQ(all.atoms.size(), 4u);
   EXPECT_EQ(all.topology->bonds, (std::vector<Bond>{{0, 1}, {2, 3}}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The formats beside PDB and mmCIF: what is read from good and odd files of each, and how they are distinguished.
+// Formats other than PDB and mmCIF: contents of good and odd files of each, and their recognition.
 #include "core/structure/formats/read_structure.h"
 
 #include <algorithm>

@@ -17,7 +17,7 @@ using test::TemporaryFolder;
 
 constexpr int kAtoms = 120000, kAtomsPerResidue = 3;
 
-/// Decimal up to the largest number of `width` digits, then hybrid-36 (upper case is enough here).
+/// Writes decimals up to the largest number of `width` digits, then hybrid-36 (upper case is enough here).
 std::string hybrid_36(int number, std::size_t width) {
   int limit = 1, power = 1;
   for (std::size_t n = 0; n < width; ++n) limit *= 10;
@@ -43,7 +43,7 @@ std::string wrapped(int number, std::size_t width) {
   return fmt::format("{:>{}}", number % (width == 5 ? 100000 : 10000), width);
 }
 
-/// 40,000 residues of three atoms in one chain.
+/// Returns 40,000 residues of three atoms in one chain.
 std::string large_pdb(std::string (*write_number)(int, std::size_t)) {
   constexpr const char* kNames[] = {" N  ", " CA ", " C  "};
   std::string text;

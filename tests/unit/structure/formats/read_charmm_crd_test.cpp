@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Coordinate files of CHARMM: both widths, residues and segments, and what is wrong with a file.
+// Coordinate files of CHARMM: both widths, residues and segments, and errors.
 #include <functional>
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the readers take from good files, odd files and real entries, and the account they give of it.
+// Atoms that readers take from good files, odd files and real entries, and their reports.
 #include "core/structure/formats/read_structure.h"
 
 #include <cmath>
@@ -81,7 +81,7 @@ TEST(Gzip, BombsStopAtTheLimit) {
   for (int n = 0; n < 20; ++n) bomb += member;
   const std::string path = folder.file("a.pdb.gz", bomb);
   EXPECT_THROW(read_text_file(path, 1000000), CapacityError);
-  EXPECT_THROW(read_text_file(path, 2000000), InputError);  // below the limit it is merely empty
+  EXPECT_THROW(read_text_file(path, 2000000), InputError);  // The file is below the limit and merely empty.
   EXPECT_THROW(read_text_file(kUbiquitin, 1000), CapacityError);
 }
 
@@ -92,7 +92,7 @@ TEST(Text, LineEndsAndByteOrderMarksDoNotMatter) {
     for (const char c : text) other += c == '\n' ? line_end : std::string(1, c);
     EXPECT_EQ(read_named("a.pdb", other).atoms.size(), 2u);
   }
-  text.pop_back();  // no line end at the end of the file
+  text.pop_back();  // The file ends without a line end.
   EXPECT_EQ(read_named("a.pdb", text).atoms.size(), 2u);
 }
 
@@ -117,7 +117,7 @@ TEST(Altloc, TheMeanOccupancyCountsHoweverManyAtomsAConformerHas) {
                            line(" CB ", 'B', "  0.55") + line(" CG ", 'B', "  0.55");
   const Structure structure = read_named("a.pdb", text);
   ASSERT_EQ(structure.atoms.size(), 3u);
-  EXPECT_EQ(structure.atoms[0].name, "CD");  // which B lacks
+  EXPECT_EQ(structure.atoms[0].name, "CD");  // B lacks it.
   EXPECT_EQ(structure.atoms[1].altloc, 'B');
   EXPECT_EQ(structure.atoms[2].altloc, 'B');
 }

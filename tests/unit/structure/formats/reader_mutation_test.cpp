@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged files: whatever happens to the bytes, reading ends in atoms with finite numbers or in one of our errors.
+// Reading damaged files ends in atoms with finite numbers or in one of our errors, whichever bytes are damaged.
 #include <cmath>
 #include <random>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SDF, MOL2 and PDBQT: what is read of good and odd files, and what is said of bad ones.
+// SDF, MOL2 and PDBQT: contents of good and odd files, and messages about bad ones.
 #include "core/structure/formats/read_structure.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-/// All atoms, those of water and ions too, as they are in the file.
+/// Reads all atoms of the file, also those of water and ions.
 FileContents contents_of(const std::string& name, const std::string& text, const ModelChoice& models = {}) {
   const TextFile file = text_of_bytes(name, text);
   return choose_reader(file).read(file, models);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Radii by set, table and override: what each atom gets, what is left out, what is said; FreeSASA's tables agree.
+// Radii by set, table and override: values of atoms, atoms that are left out, messages; FreeSASA's tables agree.
 #include <cmath>
 #include <map>
 
@@ -68,7 +68,7 @@ TEST(RadiiSets, BondingClassesKnowTheirResiduesByAnyName) {
   EXPECT_EQ(bonding_class("ATP", "C2"), "");
 }
 
-/// The program's own set against the table that FreeSASA installs, for every heavy atom of real files.
+/// Compares the program's set with FreeSASA's table, for every heavy atom of real files.
 void expect_as_in_freesasa(const char* set, const char* config, std::size_t least) {
   const RadiiTable table = read_radii_files({config}).front();
   std::size_t compared = 0;
@@ -184,7 +184,7 @@ TEST(RadiiTables, NamePatternsAreThoseOfAwk) {
   EXPECT_FALSE(NamePattern("C[^A-D]+").matches("C"));
   std::string hard;
   for (int n = 0; n < 60; ++n) hard += "a*";
-  EXPECT_FALSE(NamePattern(hard + "b").matches(std::string(60, 'a')));  // returns soon
+  EXPECT_FALSE(NamePattern(hard + "b").matches(std::string(60, 'a')));  // The match returns soon.
   for (const char* bad : {"(a)", "[a", "a\\", "*a", "a{2}", "^a", "a$"}) EXPECT_THROW(NamePattern{bad}, Error) << bad;
 }
 
@@ -223,7 +223,7 @@ TEST(RadiiTables, CharmmJoinsTopologyAndParameters) {
     EXPECT_EQ(radius_in(tables[0], "ALA", "N"), 1.85);
     EXPECT_EQ(radius_in(tables[0], "ALA", "H"), 0.2245);
     EXPECT_EQ(radius_in(tables[0], "ALA", "CB"), 2.06);
-    EXPECT_EQ(radius_in(tables[0], "ALA", "HT1"), 0.2245);  // only a patch names it
+    EXPECT_EQ(radius_in(tables[0], "ALA", "HT1"), 0.2245);  // Only a patch names it.
     EXPECT_EQ(radius_in(tables[0], "GLY", "N"), -1.0);
     EXPECT_FALSE(tables[0].united());
   }
@@ -268,7 +268,7 @@ TEST(RadiiTables, UncoveredAtomsFallBackAndAreCounted) {
   EXPECT_EQ(structure.radii_set, list);
   ASSERT_EQ(structure.report.warnings.size(), 1u);
   EXPECT_NE(structure.report.warnings[0].text.find("gives no radius to"), std::string::npos);
-  EXPECT_GT(structure.report.excluded.at(kExcludedRadius), 60u);  // alpha hydrogens have no ball
+  EXPECT_GT(structure.report.excluded.at(kExcludedRadius), 60u);  // Alpha hydrogens have no ball.
   for (const Atom& atom : structure.atoms) {
     EXPECT_NE(atom.name, "HA");
     if (atom.name == "CA") {

@@ -28,7 +28,7 @@ struct AtomSketch {
   char insertion = ' ';
 };
 
-/// A peptide with an insertion, a nucleotide, a ligand, water and ions; atom n is at x = n.
+/// Returns a peptide with an insertion, a nucleotide, a ligand, water and ions; atom n is at x = n.
 std::vector<Atom> small_molecule() {
   const AtomSketch sketches[] = {
       {"N", "ALA", "A", -1, 7},
@@ -73,7 +73,7 @@ std::vector<Atom> small_molecule() {
   return atoms;
 }
 
-/// The selected places as "0 1 5".
+/// Returns the selected places in the form "0 1 5".
 std::string selected(const std::string& expression, const std::vector<Atom>& atoms = small_molecule()) {
   const std::vector<bool> set = parse_selection(expression).evaluate(atoms);
   EXPECT_EQ(set.size(), atoms.size());
@@ -177,7 +177,7 @@ TEST(Selection, WordsMeanWhatTheHelpSays) {
   for (const auto& [expression, expected] : cases) EXPECT_EQ(selected(expression), expected) << expression;
 }
 
-/// One residue of the ligand class: its name, and names of atoms that are carbon but where they say O or P.
+/// Returns a residue of the ligand class by its name and names of atoms, which are carbon unless they say O or P.
 std::vector<Atom> residue_of(const char* residue, const std::vector<const char*>& names) {
   std::vector<Atom> atoms;
   for (const char* name : names) {
@@ -214,7 +214,7 @@ TEST(Selection, CopiesOfAChainAreNamedTogetherOrByTheirNumber) {
   EXPECT_EQ(selected("chain A-1", of_file), "") << "there are no copies";
   EXPECT_NE(parse_selection("chain A-2").why_none(of_file).find("copies that share one surface have no names"),
             std::string::npos);
-  // What was selected once: in the file, of all copies; in the assembly, of those.
+  // A selection counts in the file for all copies, and in the assembly for the named ones.
   const Selection within = parse_selection("chain A-2");
   const auto places = [&](const Selection& settled) {
     std::string text;
@@ -240,7 +240,7 @@ TEST(Selection, KnowsGlycansAndLipids) {
   for (const char* name : {"POPC", "DPPE", "CHL1", "CLR", "OLA", "PA"})
     EXPECT_TRUE(is("lipid", residue_of(name, tail))) << name;
   for (const char* name : {"NAG", "ATP", "LMT", "POPX"}) EXPECT_FALSE(is("lipid", residue_of(name, tail))) << name;
-  EXPECT_FALSE(is("lipid", residue_of("PA", {"C1", "O2"})));  // too short for a tail
+  EXPECT_FALSE(is("lipid", residue_of("PA", {"C1", "O2"})));  // The chain is too short for a tail.
   EXPECT_TRUE(is("lipids", residue_of("POPC", tail)));
 }
 
@@ -321,7 +321,7 @@ TEST(Selection, MistakesArePointedAt) {
     } catch (const SelectionError& error) {
       EXPECT_NE(error.sentence().find(mistake.sentence), std::string::npos)
           << mistake.expression << ": " << error.sentence();
-      // What is proposed in place of another program's words is understood.
+      // The proposal for another program's words is understood.
       const std::string sentence = error.sentence();
       if (const std::size_t ours = sentence.find("write '"); ours != std::string::npos) {
         EXPECT_NO_THROW(parse_selection(sentence.substr(ours + 7, sentence.rfind('\'') - ours - 7))) << sentence;
@@ -357,7 +357,7 @@ TEST(Selection, WildcardsMatchLikeGlobs) {
   EXPECT_FALSE(glob("abc*", "ab"));
   std::string stars;
   for (int n = 0; n < 2000; ++n) stars += "*a";
-  EXPECT_FALSE(matches({stars + "b", true}, std::string(4000, 'a')));  // returns soon
+  EXPECT_FALSE(matches({stars + "b", true}, std::string(4000, 'a')));  // The match returns soon.
 }
 
 TEST(Selection, NamesWaterAndIons) {
@@ -373,7 +373,7 @@ TEST(Selection, NamesWaterAndIons) {
   EXPECT_EQ(named("resname H*"), "---");
   EXPECT_EQ(named("element Ca"), "-C-");
   EXPECT_EQ(named("element O"), "---");
-  EXPECT_EQ(named("name CA ZN"), "--Z");  // there are alpha carbons
+  EXPECT_EQ(named("name CA ZN"), "--Z");  // The molecule has alpha carbons.
   EXPECT_EQ(named("resname CA"), "-C-");
 }
 
@@ -466,7 +466,7 @@ std::vector<Atom> random_gas(std::mt19937& random, std::size_t count) {
   std::vector<Atom> atoms(count);
   for (std::size_t n = 0; n < count; ++n) {
     Atom& atom = atoms[n];
-    atom.position = {0.5 * grid(random), 0.5 * grid(random), 0.5 * grid(random)};  // many exact ties
+    atom.position = {0.5 * grid(random), 0.5 * grid(random), 0.5 * grid(random)};  // The grid makes many exact ties.
     atom.index = static_cast<std::uint32_t>(n);
     atom.residue = static_cast<std::uint32_t>(n / 3);
     atom.chain = n % 2 ? "A" : "B";

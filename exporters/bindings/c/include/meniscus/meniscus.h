@@ -319,7 +319,7 @@ typedef struct meniscus_toroidal {
   double start[3];   /* unit vector */
   double sweep;      /* radian, in (0, 2 pi] */
   uint32_t first_face, face_count; /* rows of MENISCUS_FACES */
-  uint8_t has_piece[2];            /* of a spindle torus: 1 if the piece at atom[n] exists */
+  uint8_t has_piece[2];            /* for a spindle torus: 1 if the piece at atom[n] exists */
 } meniscus_toroidal;
 
 /* A re-entrant patch: the part of a fixed probe's sphere that is inside all its planes. */

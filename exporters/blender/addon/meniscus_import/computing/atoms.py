@@ -158,7 +158,7 @@ def _in_order(names):
 
 def _atoms(structure, color):
     chains, chain = _in_order(structure.chains)
-    elements = structure.atomic_numbers if hasattr(structure, "atomic_numbers") else structure.elements  # of 0.2.0
+    elements = structure.atomic_numbers if hasattr(structure, "atomic_numbers") else structure.elements  # in 0.2.0
     numbers = {
         "atom.file_index": structure.indices, "atom.b_factor": np.nan_to_num(structure.b_factors),
         "atom.atomic_number": elements.astype(np.int32), "atom.res_id": structure.residue_numbers,

@@ -111,7 +111,7 @@ def _import(folder):
     if spec is None or not os.path.exists(file):
         raise ImportError(f"{folder}: no Python package")
     module = importlib.util.module_from_spec(spec)
-    sys.modules["meniscus"] = module  # where its own modules look for it
+    sys.modules["meniscus"] = module  # the module's own imports look for it there
     try:
         spec.loader.exec_module(module)
     except BaseException:
@@ -264,7 +264,7 @@ def surface_by_program(tools, request, folder, task):
 def read_atoms(tools, request, folder, task):
     """Returns the atoms.AtomFile of a request about a file, with all frames of its run if it has a place there. The
     last files are kept."""
-    if request.needs_program():  # its colours belong to the surface, not to the atoms
+    if request.needs_program():  # the colours belong to the surface, not to the atoms
         request = dataclasses.replace(request, color="element", numbers="")
     key = (request.atoms_key(), request.place > 0)
     with _reading:

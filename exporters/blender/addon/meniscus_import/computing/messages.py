@@ -31,7 +31,7 @@ class Messages:
         return pickle.loads(self._read(length))
 
     def is_there(self, seconds=0.0):
-        """True if a message arrives within this time, or if the other end is closed."""
+        """Returns True if a message arrives within this time, or if the other end is closed."""
         return bool(select.select([self._socket], [], [], seconds)[0])
 
     def fileno(self):

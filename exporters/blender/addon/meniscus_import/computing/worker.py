@@ -23,7 +23,7 @@ def main(descriptor=""):
 
     connection = messages.of_descriptor(int(descriptor)) if descriptor else messages.of_share(sys.stdin.buffer.read())
     _, sys.path[:], package, program, folder = connection.receive()
-    from meniscus_import.computing import jobs  # which needs sys.path to find numpy
+    from meniscus_import.computing import jobs  # needs sys.path to find numpy
 
     tools = jobs.Tools(package, program, folder)
     worker = jobs.Worker(lambda task: send(connection, *outcome(task)), THREADS)
