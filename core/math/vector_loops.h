@@ -105,7 +105,6 @@ template <typename Number>
 std::uint32_t* list_negative(const Number* numbers, std::size_t count, std::uint32_t first, std::uint32_t* list) {
   for (std::size_t n = 0; n < count; n += 8) {
     unsigned bits = negative_of_eight(numbers + n);
-    if (bits == 0) continue;
     if (count - n < 8) bits &= (1u << (count - n)) - 1;
     const std::uint32_t at = first + static_cast<std::uint32_t>(n);
     detail::write_eight(at, detail::kSetBits.place[bits], list);
