@@ -214,6 +214,8 @@ class WholeSpheres {
         largest_radius_(largest_radius),
         grid_(atoms, largest_radius) {}
 
+  const BallGrid& grid() const { return grid_; }
+
   enum class Kind { buried, lone, lost };
 
   Kind kind_of(std::uint32_t a) const {
@@ -286,31 +288,23 @@ class WholeSpheres {
   BallGrid grid_;
 };
 
-std::vector<std::uint32_t> atoms_without_arcs(const std::vector<bool>& swallowed, std::span<const RsArc> arcs) {
-  std::vector<char> has_arcs(swallowed.begin(), swallowed.end());
-  for (const RsArc& arc : arcs) has_arcs[arc.i] = has_arcs[arc.j] = 1;
-  std::vector<std::uint32_t> left;
-  for (std::uint32_t a = 0; a < has_arcs.size(); ++a)
-    if (!has_arcs[a]) left.push_back(a);
-  return left;
-}
-
 }  // namespace
 
 void find_whole_spheres(std::span<const Ball> atoms, std::span<const double> weights,
                         const std::vector<bool>& swallowed, ReducedSurface& rs) {
   rs.lone_atoms.clear();
   rs.lost_atoms.clear();
-  const std::vector<std::uint32_t> candidates = atoms_without_arcs(swallowed, rs.arcs);
-  if (candidates.empty()) return;
+  std::vector<char> is_known(swallowed.begin(), swallowed.end());  // the others need a test
+  for (const RsArc& arc : rs.arcs) is_known[arc.i] = is_known[arc.j] = 1;
+  if (std::ranges::find(is_known, 0) == is_known.end()) return;
   const WholeSpheres spheres(atoms, std::sqrt(*std::ranges::max_element(weights)), weights, swallowed);
-  std::vector<WholeSpheres::Kind> kinds(candidates.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 256), [&](const auto& range) {
-    for (std::size_t n = range.begin(); n != range.end(); ++n) kinds[n] = spheres.kind_of(candidates[n]);
+  std::vector<WholeSpheres::Kind> kinds(atoms.size(), WholeSpheres::Kind::buried);
+  for_each_atom(spheres.grid(), [&](std::uint32_t a) {
+    if (!is_known[a]) kinds[a] = spheres.kind_of(a);
   });
-  for (std::size_t n = 0; n < candidates.size(); ++n) {
-    if (kinds[n] == WholeSpheres::Kind::lone) rs.lone_atoms.push_back(candidates[n]);
-    if (kinds[n] == WholeSpheres::Kind::lost) rs.lost_atoms.push_back(candidates[n]);
+  for (std::uint32_t a = 0; a < kinds.size(); ++a) {
+    if (kinds[a] == WholeSpheres::Kind::lone) rs.lone_atoms.push_back(a);
+    if (kinds[a] == WholeSpheres::Kind::lost) rs.lost_atoms.push_back(a);
   }
 }
 

@@ -140,16 +140,23 @@ class Placement {
     height_[t] = height;
   }
 
-  // True if an arc with coincident ends was empty for the decisions.
+  // True if an arc with coincident ends was empty for the decisions. Double precision decides arcs that are surely
+  // short.
   bool vanishes(const RsArc& arc) const {
-    namespace q = quad_geometry;
-    const auto local = [&](std::uint32_t atom) {
-      const glm::dvec3 d = atoms_[atom].center - atoms_[arc.i].center;
-      return q::real3(d.x, d.y, d.z);
+    const auto local = [&](std::uint32_t atom) { return atoms_[atom].center - atoms_[arc.i].center; };
+    const double w = weight(arc.i);
+    const geometry::Circle rough = geometry::circle_of_two_spheres(local(arc.j), w, weight(arc.j));
+    const auto roughly_covered = [&](std::uint32_t k) {
+      return geometry::covered_arc(
+          geometry::covered_half_plane(rough, w, local(k), glm::length(local(k)), weight(k), geometry::kUnitRoundoff));
     };
-    const q::real w = weight(arc.i);
-    const q::Circle circle = q::circle_of_two_spheres(local(arc.j), w, weight(arc.j));
-    const auto covered = [&](std::uint32_t k) { return q::covered_by(circle, w, local(k), weight(k)); };
+    const geometry::CoveredArc before = roughly_covered(arc.begin_by), behind = roughly_covered(arc.end_by);
+    const double exposed = geometry::pseudo_sweep(before.end, behind.begin), error = before.error + behind.error;
+    if (rough.radius_squared > 1e-12 * w && exposed > error && exposed < 1 - error) return true;
+    namespace q = quad_geometry;
+    const auto quad = [](const glm::dvec3& d) { return q::real3(d.x, d.y, d.z); };
+    const q::Circle circle = q::circle_of_two_spheres(quad(local(arc.j)), w, weight(arc.j));
+    const auto covered = [&](std::uint32_t k) { return q::covered_by(circle, w, quad(local(k)), weight(k)); };
     return q::arc_vanishes(covered(arc.begin_by), covered(arc.end_by));
   }
 

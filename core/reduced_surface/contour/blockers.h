@@ -191,7 +191,8 @@ class CircleSweep {
 ///
 /// A sphere is sampled in 252 directions, so dense that every point lies within a known angle of one. A direction
 /// counts as covered when one ball covers everything within that angle of it, with an allowance for rounding; so
-/// "covered" is certain, and "not covered" only means that a precise test is needed.
+/// "covered" is certain, and "not covered" only means that a precise test is needed. Where few directions are left, it
+/// looks closer at denser directions around them.
 class SphereCover {
  public:
   static constexpr std::size_t kPadded = 256;  ///< the number of directions, in whole blocks
@@ -215,7 +216,15 @@ class SphereCover {
  private:
   static constexpr std::size_t kCapColumns = 5;
 
+  // A cap of the sphere by its axis and its angle.
+  struct Cap {
+    glm::dvec3 axis;
+    double cosine, sine;
+  };
+
   void list_caps(const std::int16_t* limit, std::size_t count);
+  bool is_covered_closely(const Blockers& blockers);
+  bool is_covered_around(const glm::dvec3& direction, std::size_t look);
   void list_uncovered(const std::int16_t* x, const std::int16_t* y, const std::int16_t* z, std::size_t count,
                       std::uint32_t* list);
 
@@ -227,6 +236,8 @@ class SphereCover {
   std::array<std::uint8_t, kPadded> uncovered_numbers_{};
   std::size_t uncovered_count_ = 0;
   std::vector<std::int16_t> signs_;
+  std::vector<Cap> caps_left_;  // caps whose circles may be exposed
+  std::size_t latest_ = 0;      // the latest of them that covered a direction
   // Scratch: the directions outside the wide caps, and the places in this list of those outside all caps.
   std::array<std::uint32_t, kPadded + kLanes> outside_wide_{}, outside_all_{};
 };

@@ -31,6 +31,10 @@ constexpr float kBeyond = 1.002f;  // replaces a cosine: the number to compare t
 static_assert(kBeyond * kProduct + kProductError < 0x7fff);
 static_assert(kBeyond * kProduct + kProductError - 1 > (kAxisLength + 0.9f) * (kLength + kLengthError));
 
+constexpr std::size_t kFew = 5;     // the largest number of directions around which it pays to look closer
+constexpr std::size_t kLooks = 3;   // the number of closer looks, each at smaller angles
+constexpr std::size_t kAround = 7;  // the number of new directions around a direction
+
 // The directions, and the largest angle from any point of the sphere to the nearest of them: the largest circumradius
 // of a triangle between them.
 struct WatchedDirections {
@@ -38,6 +42,13 @@ struct WatchedDirections {
   std::array<glm::dvec3, kDirections> unit{};
   double cos_angle = 1;
   double sin_angle = 0;
+  // A closer look replaces a direction by itself and those around it: the angle between them, and the largest angle
+  // from any point near the direction to the nearest of them.
+  struct Look {
+    double cos_out, sin_out, cos_angle, sin_angle;
+  };
+  std::array<Look, kLooks> looks{};
+  std::array<glm::dvec2, kAround> turns{};
   double cos_near = 1;  // cosine of an angle in the middle of the allowance for rounding
 
   WatchedDirections() {
@@ -59,7 +70,7 @@ struct WatchedDirections {
     std::ranges::sort(points, {}, [](const glm::dvec3& p) { return std::array{p.x, p.y, p.z}; });
     points.erase(std::unique(points.begin(), points.end()), points.end());
     assert(points.size() == kDirections);
-    const double angle = std::acos(smallest) + kRoom;
+    double angle = std::acos(smallest) + kRoom;
     cos_angle = std::cos(angle);
     sin_angle = std::sin(angle);
     cos_near = std::cos(angle - kRoom / 2);
@@ -70,6 +81,20 @@ struct WatchedDirections {
       y[n] = static_cast<std::int16_t>(direction.y);
       z[n] = static_cast<std::int16_t>(direction.z);
       if (n < kDirections) unit[n] = glm::normalize(direction);
+    }
+    constexpr double kTurn = 2 * std::numbers::pi / kAround;
+    for (std::size_t k = 0; k < kAround; ++k) {
+      const double at = kTurn * static_cast<double>(k);
+      turns[k] = {std::cos(at), std::sin(at)};
+    }
+    for (Look& look : looks) {
+      // Eight caps of 0.445 times the angle of a cap cover it, one of them in its middle.
+      const double middle = 0.445 * angle, out = 0.802 * angle;
+      const auto to_corner = [&](double far) {
+        return std::cos(out) * std::cos(far) + std::sin(out) * std::sin(far) * std::cos(kTurn / 2);
+      };
+      angle = std::acos(std::min({std::cos(middle), to_corner(middle), to_corner(angle)})) + kRoom;
+      look = {std::cos(out), std::sin(out), std::cos(angle), std::sin(angle)};
     }
   }
 
@@ -287,6 +312,43 @@ bool SphereCover::is_near(const glm::dvec3& point, std::span<const std::uint8_t>
   return std::ranges::any_of(uncovered, [&](std::uint8_t n) { return glm::dot(point, w.unit[n]) > w.cos_near; });
 }
 
+// Looks closer at the few directions that are left. Only balls whose circles may be exposed cover parts around them.
+bool SphereCover::is_covered_closely(const Blockers& blockers) {
+  const double radius = std::sqrt(blockers.first_weight());
+  caps_left_.clear();
+  for (std::size_t n = 0; n < blockers.size(); ++n) {
+    if (!circle_may_be_exposed(n)) continue;
+    const Blockers::Ball ball = blockers[n];
+    const double cosine = ball.half_power / (ball.distance * radius), sine = std::sqrt(1 - cosine * cosine);
+    caps_left_.push_back({ball.center / ball.distance, cosine, sine});
+  }
+  latest_ = 0;
+  return !caps_left_.empty() &&
+         std::ranges::all_of(uncovered(), [&](std::uint8_t n) { return is_covered_around(watched().unit[n], 0); });
+}
+
+// True if caps cover everything near a direction: each cap of this look lies in one of them, or is covered at the next
+// look. The cap that covered the latest direction is tried first.
+bool SphereCover::is_covered_around(const glm::dvec3& direction, std::size_t look) {
+  const WatchedDirections::Look& here = watched().looks[look];
+  const auto is_covered = [&](const glm::dvec3& d) {
+    const auto covers = [&](const Cap& cap) {
+      return cap.cosine < here.cos_angle &&
+             glm::dot(cap.axis, d) > cap.cosine * here.cos_angle + cap.sine * here.sin_angle;
+    };
+    if (covers(caps_left_[latest_])) return true;
+    const auto cap = std::ranges::find_if(caps_left_, covers);
+    if (cap == caps_left_.end()) return look + 1 < kLooks && is_covered_around(d, look + 1);
+    latest_ = static_cast<std::size_t>(cap - caps_left_.begin());
+    return true;
+  };
+  if (!is_covered(direction)) return false;
+  const glm::dvec3 u = glm::normalize(glm::cross(direction, {0.36, 0.48, 0.8})), v = glm::cross(direction, u);
+  return std::ranges::all_of(watched().turns, [&](const glm::dvec2& turn) {
+    return is_covered(here.cos_out * direction + here.sin_out * (turn.x * u + turn.y * v));
+  });
+}
+
 bool SphereCover::test(const Blockers& blockers) {
   const WatchedDirections& w = watched();
   const std::size_t count = blockers.size(), room = whole_blocks(count), most = std::max(room, kPadded);
@@ -313,7 +375,7 @@ bool SphereCover::test(const Blockers& blockers) {
   if (uncovered_count_ == 0) return false;
   for (auto& numbers : uncovered_) repeat_last(numbers.data(), uncovered_count_);
   sign_far(caps, room, left, whole_steps(uncovered_count_), signs_.data());
-  return true;
+  return uncovered_count_ > kFew || !is_covered_closely(blockers);
 }
 
 }  // namespace meniscus

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/math/ball.h"
 #include "core/reduced_surface/contour/blockers.h"
 #include "core/reduced_surface/contour/contour.h"
 
@@ -225,6 +226,26 @@ TEST(SphereCover, BallsWithOpenCirclesLeaveTheArcsThatAllLeaveNearUncoveredDirec
   EXPECT_GT(arcs, 2000u);
   EXPECT_GT(left_out, 1000u);
   EXPECT_GT(refused, 20u);
+}
+
+/// Adds a ball whose cap of a sphere of radius 3 has this axis and this angle.
+void add_cap(const glm::dvec3& axis, double angle, Blockers& blockers) {
+  blockers.add(4.0 * axis, 9 + 16 - 24 * std::cos(angle), static_cast<std::uint32_t>(blockers.size()));
+}
+
+TEST(SphereCover, SmallHolesAreSeenUntilASmallCapCoversThem) {
+  for (std::size_t n = 0; n < 2000; ++n) {
+    const glm::dvec3 hole = spiral_direction(n, 2000);
+    const double angle = 0.005 + 1e-5 * static_cast<double>(n);
+    Blockers blockers;
+    blockers.restart(9);
+    add_cap(-hole, kPi - angle, blockers);
+    EXPECT_TRUE(SphereCover().test(blockers)) << n;
+    add_cap(hole, 0.9 * angle, blockers);
+    EXPECT_TRUE(SphereCover().test(blockers)) << n;
+    add_cap(hole, angle + 0.04, blockers);
+    EXPECT_FALSE(SphereCover().test(blockers)) << n;
+  }
 }
 
 TEST(SphereCover, ASphereWithoutNeighborsIsNotCovered) {
