@@ -60,7 +60,7 @@ Bytes tiff_header(std::uint32_t directory) {
   return header;
 }
 
-/// Returns a directory for this place in a file, with the values of its tags. Those without values are left out.
+/// Returns a directory for this place in a file, of the tags that have values.
 Bytes tiff_directory(std::vector<TiffTag> tags, std::uint32_t place) {
   constexpr std::size_t kTag = 12, kRoom = 4;  // values of up to four bytes stand in their tag
   constexpr std::array kSize{1, 1, 1, 2, 4, 4, 1, 1};
