@@ -267,6 +267,7 @@ void run(std::span<const char* const> typed) {
   const std::vector<const char*> words = words_of(typed);
   remember_command_line(words);
   CLI::App program("Meniscus computes the exact, complete solvent-excluded surface of a molecule.", "meniscus");
+  program.allow_windows_style_options(false);  // "/data/a.pdb" is a file on Windows, too
   program.formatter(std::make_shared<ManualFormatter>());
   program.get_formatter()->column_width(30);
   program.get_formatter()->label("REQUIRED", "(required)");

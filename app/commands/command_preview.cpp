@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus preview`: shows the surface in a browser while it changes.
-#include "app/commands/command_table.h"
-#include "app/options/scene_options.h"
-#include "app/preview/server/serve.h"
-#include "app/process/program_main.h"
-
-#ifdef MENISCUS_PREVIEW
-
 #include <cstdlib>
 #include <iostream>
 #include <iterator>
 #include <system_error>
 
+#include "app/commands/command_table.h"
 #include "app/commands/preview_command.h"
+#include "app/options/scene_options.h"
 #include "app/preview/command_json.h"
 #include "app/preview/server/clients.h"
+#include "app/preview/server/serve.h"
 #include "app/preview/session.h"
 #include "app/process/child_process.h"
+#include "app/process/program_main.h"
 #include "app/process/system_process.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/queries/copies.h"
@@ -286,11 +284,9 @@ std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
 std::string token_of(const PreviewCommand& command) {
   std::string token;
   if (!command.token_file.empty()) {
-    using enum std::filesystem::perms;
-    std::error_code missing;
-    const auto others = std::filesystem::status(command.token_file, missing).permissions() & (group_all | others_all);
-    if (!missing && others != none)
-      throw InputError(command.token_file, 0, "others can read or change the token; chmod 600 that file");
+    if (system_file::is_open_to_others(path_of_text(command.token_file)))
+      throw InputError(command.token_file, 0,
+                       "others can read or change the token; take their rights to that file, by chmod 600 or icacls");
     std::ifstream stream(command.token_file);
     if (!(stream >> token)) throw InputError(command.token_file, 0, "no token can be read");
   } else if (const char* const given = std::getenv("MENISCUS_TOKEN")) {
@@ -362,22 +358,3 @@ void add_preview(CLI::App& command) {
 }
 
 }  // namespace meniscus
-
-#else
-
-namespace meniscus {
-
-void add_preview(CLI::App& command) {
-  describe(command, "", "This build has no preview; those from source have (meniscus help install).");
-  command.allow_extras();
-  command.callback([] {
-    throw UsageError(
-        "this build has no preview; build Meniscus from source (meniscus help install), or use meniscus render");
-  });
-}
-
-std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t>, glm::ivec2, bool) { return {}; }
-
-}  // namespace meniscus
-
-#endif

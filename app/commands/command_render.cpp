@@ -88,10 +88,9 @@ void log_memory(const RenderCommand& command) {
   const Scene& scene = command.scene;
   const double pixels = static_cast<double>(scene.picture.width) * scene.picture.height;
   if (pixels < kManyPixels || !is_encoded_in_memory(scene.output)) return;
-  log_line(command,
-           fmt::format("note: writing {} files takes up to {} MiB of additional memory; .png, .jpg and .tif take none",
-                       std::filesystem::path(scene.output).extension().string(),
-                       with_thousands(static_cast<std::uint64_t>(pixels * channel_bytes(scene) / kMebibyte))));
+  log_line(command, fmt::format("note: writing {} files takes up to {} MiB of additional memory; .png takes none",
+                                std::filesystem::path(scene.output).extension().string(),
+                                with_thousands(static_cast<std::uint64_t>(pixels * channel_bytes(scene) / kMebibyte))));
 }
 
 void warn_of_hue_changes(const RenderCommand& command) {

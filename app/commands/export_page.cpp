@@ -6,7 +6,6 @@
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
 #include "app/options/scene_options.h"
-#include "app/preview/server/serve.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
@@ -16,6 +15,7 @@
 #include "core/camera/camera.h"
 #include "core/image/color_space.h"
 #include "core/image/png_file.h"
+#include "core/image/print_file.h"
 #include "core/render/look.h"
 #include "core/render/picture.h"
 #include "core/scene/annotations.h"
@@ -130,13 +130,12 @@ struct PageCommand : SceneCommand {
   std::vector<std::string> named_views;
 };
 
-/// Returns a picture as JPEG, on its background; as PNG in a build without TurboJPEG.
+/// Returns a picture as JPEG, on its background.
 page::StillPicture still_picture(const Framebuffer& drawn, const Look& look) {
   constexpr std::size_t kChannels = 4;
   std::vector<std::uint8_t> pixels(kChannels * drawn.color.size());
   display_bytes(drawn.color, look.background, kChannels, pixels.data());
-  std::vector<std::uint8_t> bytes = encode_jpeg(pixels, drawn.size, false);
-  return bytes.empty() ? page::png_still(drawn, look) : page::StillPicture{"image/jpeg", std::move(bytes)};
+  return {"image/jpeg", encode_jpeg(pixels, drawn.size.x, drawn.size.y, JpegUse::page)};
 }
 
 /// The page of a run; a molecule is a run of one frame.

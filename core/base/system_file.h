@@ -46,6 +46,10 @@ std::optional<State> state_of_entry(const std::filesystem::path& path);
 /// Returns the state of an open file. Returns nothing if that fails.
 std::optional<State> state_of(int file);
 
+/// True if users who are not named in the rights to a file can read or write it, as one of its group (not on Windows)
+/// or as everybody. False if the file is missing.
+bool is_open_to_others(const std::filesystem::path& path);
+
 /// Opens a file for reading and returns its descriptor, or -1. No child process inherits it.
 int open_to_read(const std::filesystem::path& path);
 /// Opens a file for reading as a stream of bytes. Returns null for a link, a folder and all that is no plain file.
@@ -67,9 +71,6 @@ std::ptrdiff_t write_at(int file, const std::byte* bytes, std::size_t count, std
 bool sync(const std::filesystem::path& path);
 /// Makes a rename in this folder durable, as far as the file system can.
 void sync_folder(const std::filesystem::path& folder);
-
-/// Returns the most bytes that the system lets a file of this process have.
-std::uint64_t largest_file();
 
 /// Renames a file. False if `to` exists, even if another process creates it at this moment.
 bool rename_to_free(const std::filesystem::path& from, const std::filesystem::path& to);

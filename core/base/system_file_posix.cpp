@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Implements system_file.h for Linux and macOS.
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #if defined(__APPLE__)
@@ -69,6 +68,13 @@ std::optional<State> state_of(int file) {
   return ::fstat(file, &status) == 0 ? std::optional(state_from(status)) : std::nullopt;
 }
 
+bool is_open_to_others(const fs::path& path) {
+  using enum fs::perms;
+  std::error_code missing;
+  const fs::perms rights = fs::status(path, missing).permissions();
+  return !missing && (rights & (group_all | others_all)) != none;
+}
+
 int open_to_read(const fs::path& path) {
   return uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); });
 }
@@ -119,11 +125,6 @@ void sync_folder(const fs::path& folder) {
   if (file < 0) return;
   uninterrupted([&] { return ::fsync(file); });
   ::close(file);
-}
-
-std::uint64_t largest_file() {
-  rlimit limit{};
-  return ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? limit.rlim_cur : UINT64_MAX;
 }
 
 bool rename_to_free(const fs::path& from, const fs::path& to) {

@@ -12,6 +12,8 @@
 
 #include <windows.h>
 
+#include <aclapi.h>
+
 #include "core/base/system_file.h"
 
 namespace meniscus {
@@ -107,6 +109,27 @@ std::optional<State> state_of(const fs::path& path) { return state_from(path, 0)
 std::optional<State> state_of_entry(const fs::path& path) { return state_from(path, FILE_FLAG_OPEN_REPARSE_POINT); }
 std::optional<State> state_of(int file) { return state_from(handle_of(file)); }
 
+bool is_open_to_others(const fs::path& path) {
+  constexpr ACCESS_MASK kReadsOrWrites = FILE_READ_DATA | FILE_WRITE_DATA | GENERIC_READ | GENERIC_WRITE | GENERIC_ALL;
+  PACL list = nullptr;
+  PSECURITY_DESCRIPTOR descriptor = nullptr;
+  if (::GetNamedSecurityInfoW(path.c_str(), SE_FILE_OBJECT, DACL_SECURITY_INFORMATION, nullptr, nullptr, &list, nullptr,
+                              &descriptor) != ERROR_SUCCESS)
+    return false;
+  bool is_open = list == nullptr;  // then everybody has all rights
+  for (DWORD n = 0; !is_open && n < list->AceCount; ++n) {
+    void* entry = nullptr;
+    if (!::GetAce(list, n, &entry)) continue;
+    const auto* const allowed = static_cast<const ACCESS_ALLOWED_ACE*>(entry);
+    if (allowed->Header.AceType != ACCESS_ALLOWED_ACE_TYPE || (allowed->Mask & kReadsOrWrites) == 0) continue;
+    const auto whose = reinterpret_cast<PSID>(const_cast<DWORD*>(&allowed->SidStart));
+    for (const auto kind : {WinWorldSid, WinAuthenticatedUserSid, WinBuiltinUsersSid})
+      is_open = is_open || ::IsWellKnownSid(whose, kind);
+  }
+  ::LocalFree(descriptor);
+  return is_open;
+}
+
 int open_to_read(const fs::path& path) { return ::_wopen(path.c_str(), _O_RDONLY | kNotInherited); }
 
 std::FILE* open_plain(const fs::path& path) {
@@ -159,8 +182,6 @@ bool sync(const fs::path& path) {
 
 // Renames are written through to the disk already.
 void sync_folder(const fs::path&) {}
-
-std::uint64_t largest_file() { return UINT64_MAX; }
 
 bool rename_to_free(const fs::path& from, const fs::path& to) {
   return succeeded(::MoveFileExW(from.c_str(), to.c_str(), MOVEFILE_WRITE_THROUGH));

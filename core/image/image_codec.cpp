@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads the module with OpenImageIO, and finds the time that files bear.
+// Chooses encoders, loads the module with OpenImageIO, and finds the time that files bear.
 #include "core/image/image_codec.h"
 
 #include <charconv>
@@ -8,12 +8,13 @@
 
 #include "core/base/module_file.h"
 #include "core/base/version.h"
+#include "core/image/print_file.h"
 
 namespace meniscus {
 namespace {
 
 const ImageCodec& load() {
-  constexpr ModuleFile kModule{"meniscus_openimageio.so", "reading pictures, and writing formats other than PNG,",
+  constexpr ModuleFile kModule{"meniscus_openimageio.so", "reading pictures, and writing WebP and EXR,",
                                std::size_t{640} << 20};
   using Give = const ImageCodec*(const char* version, std::size_t image_size);
   void* const give = load_from_module(kModule, "meniscus_image_codec");
@@ -24,10 +25,8 @@ const ImageCodec& load() {
 
 }  // namespace
 
-std::size_t pixel_bytes(const ImageToEncode& image) {
-  constexpr std::array<std::size_t, 3> kBytes{1, 2, 4};
-  return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * image.channels.size() *
-         kBytes[static_cast<std::size_t>(image.sample)];
+std::unique_ptr<RowEncoder> begin_rows(const ImageToEncode& image) {
+  return image.format == "tiff" || image.format == "jpeg" ? print_rows(image) : image_codec().begin(image);
 }
 
 const ImageCodec& image_codec() {

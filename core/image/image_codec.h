@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Encodes and decodes pictures with OpenImageIO, which is loaded with the first picture, and the time that files bear.
+// Encodes pictures row by row and decodes them, and the time that files bear.
 //
-// OpenImageIO loads two hundred libraries, a quarter of a second and a hundred megabytes before main(), and most
-// commands make no picture. So the code that needs it is a module of its own (openimageio_codec.cpp), found near the
-// program.
+// OpenImageIO writes WebP and EXR and reads everything. It loads two hundred libraries, a quarter of a second and a
+// hundred megabytes before main(), and most commands do not need it. So the code that does is a module of its own
+// (openimageio_codec.cpp), found near the program.
 #pragma once
 
 #include <array>
@@ -58,10 +58,7 @@ struct DecodedImage {
   std::vector<float> values;
 };
 
-/// Returns the size of the uncompressed pixels in bytes.
-std::size_t pixel_bytes(const ImageToEncode& image);
-
-/// Encodes a picture row after row. For WebP it keeps all rows.
+/// Encodes a picture row after row.
 class RowEncoder {
  public:
   virtual ~RowEncoder() = default;
@@ -80,6 +77,10 @@ class ImageCodec {
   /// Returns the loaded version: "OpenImageIO 2.4.7".
   virtual std::string library() const = 0;
 };
+
+/// Returns an encoder of TIFF or JPEG, or the codec's for other formats. Throws what image_codec() and the encoder
+/// throw.
+std::unique_ptr<RowEncoder> begin_rows(const ImageToEncode& image);
 
 /// Returns the codec, and loads the module at the first call; from any thread. Throws Error if it is missing or of
 /// another build, CapacityError if the system cannot load it.

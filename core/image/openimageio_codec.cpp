@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The module that wraps OpenImageIO: it exports one function.
-#include <cstring>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include "core/base/system_file.h"
 #include "core/base/version.h"
 #include "core/image/image_codec.h"
 
@@ -19,9 +13,7 @@ namespace meniscus {
 namespace {
 
 OIIO::ImageSpec spec_of(const ImageToEncode& image) {
-  const auto type = image.sample == SampleType::float32  ? OIIO::TypeDesc::FLOAT
-                    : image.sample == SampleType::uint16 ? OIIO::TypeDesc::UINT16
-                                                         : OIIO::TypeDesc::UINT8;
+  const auto type = image.sample == SampleType::float32 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), type);
   spec.channelnames = image.channels;
   spec.alpha_channel = image.alpha_channel;
@@ -29,7 +21,6 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   spec.attribute("oiio:ColorSpace", image.color_space);
   if (image.unassociated_alpha) spec.attribute("oiio:UnassociatedAlpha", 1);
   if (!image.compression.empty()) spec.attribute("compression", image.compression);
-  if (image.format == "jpeg") spec.attribute("jpeg:subsampling", "4:4:4");
   if (image.png_level >= 0) spec.attribute("png:compressionLevel", image.png_level);
   if (!image.software.empty()) spec.attribute("Software", image.software);
   // Without a date OpenImageIO would write the present time; other empty texts are omitted.
@@ -37,13 +28,8 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
     spec.attribute("DateTime", 0);
   else
     spec.attribute("DateTime", image.date);
-  if (!image.color_profile.empty())
-    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(image.color_profile.size())),
-                   image.color_profile.data());
-  // TIFF and JPEG have no other place for a text.
-  const std::string& description = image.command.empty() && image.format != "openexr" ? image.scene : image.command;
+  const std::string& description = image.command.empty() ? image.scene : image.command;
   if (!description.empty()) spec.attribute("ImageDescription", description);
-  if (!image.scene.empty() && image.format == "openexr") spec.attribute("meniscus:scene", image.scene);
   for (const auto& [name, text] : image.header) spec.attribute(name, text);
   for (const auto& [name, map] : image.maps) spec.attribute(name, OIIO::TypeMatrix44, map.data());
   if (image.chromaticities.front() > 0.0f)
@@ -56,47 +42,13 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   return spec;
 }
 
-/// An anonymous file in memory, which exists as long as this object. A limit on the size of files (RLIMIT_FSIZE)
-/// applies to it, too.
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(::memfd_create("meniscus", MFD_CLOEXEC)) {
-    if (descriptor_ < 0)
-      throw std::runtime_error(std::string("no file in memory can be made: ") + std::strerror(errno));
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
-  /// Reads everything that was written, piece by piece, by calls of take(span of bytes).
-  void read(const auto& take) const {
-    constexpr std::size_t kPiece = 1 << 20;
-    struct stat status {};
-    ::fstat(descriptor_, &status);
-    std::vector<std::byte> piece(kPiece);
-    for (off_t taken = 0; taken < status.st_size;) {
-      const ssize_t count = uninterrupted([&] { return ::pread(descriptor_, piece.data(), piece.size(), taken); });
-      if (count <= 0) throw std::runtime_error(std::string("a file in memory cannot be read: ") + std::strerror(errno));
-      take(std::span<const std::byte>(piece).first(static_cast<std::size_t>(count)));
-      taken += count;
-    }
-  }
-
- private:
-  int descriptor_;
-};
-
-/// Writes rows to memory: TIFF to a file there, because OpenImageIO 2.4 cannot read back through a proxy what it wrote,
-/// and the file would lack its last directory.
+/// Writes rows to memory.
 class OpenImageIORows final : public RowEncoder {
  public:
   explicit OpenImageIORows(const ImageToEncode& image)
       : row_size_(static_cast<std::size_t>(image.width) * image.channels.size()) {
-    if (image.format == "tiff") named_.emplace();
-    const std::string name = named_ ? named_->name() : "picture." + image.format;
-    output_ = named_ ? OIIO::ImageOutput::create(image.format) : OIIO::ImageOutput::create(name, &sink_);
+    const std::string name = "picture." + image.format;
+    output_ = OIIO::ImageOutput::create(name, &sink_);
     if (!output_) throw std::runtime_error(OIIO::geterror());
     check(output_->open(name, spec_of(image)));
   }
@@ -109,7 +61,7 @@ class OpenImageIORows final : public RowEncoder {
 
   void finish(const std::function<void(std::span<const std::byte>)>& take) override {
     check(output_->close());
-    named_ ? named_->read(take) : take(std::as_bytes(std::span(bytes_)));
+    take(std::as_bytes(std::span(bytes_)));
   }
 
  private:
@@ -118,7 +70,6 @@ class OpenImageIORows final : public RowEncoder {
   }
 
   std::size_t row_size_;
-  std::optional<MemoryFile> named_;
   std::vector<std::uint8_t> bytes_;
   OIIO::Filesystem::IOVecOutput sink_{bytes_};
   std::unique_ptr<OIIO::ImageOutput> output_;

@@ -135,7 +135,7 @@ std::string date_of_pictures() {
 
 bool is_jpeg(const std::string& extension) { return extension == ".jpg" || extension == ".jpeg"; }
 
-/// Returns OpenImageIO's name of a format.
+/// Returns the name of a format, as OpenImageIO has it.
 std::string format_of(const std::string& extension) {
   if (is_jpeg(extension)) return "jpeg";
   return extension == ".tif" ? "tiff" : extension.substr(1);
@@ -208,12 +208,11 @@ ImageToEncode described(glm::ivec2 size, const std::vector<std::string>& channel
   image.color_space = exr ? "Linear" : "sRGB";
   image.unassociated_alpha = !exr;
   if (tiff || is_jpeg(extension)) image.color_profile = srgb_profile();
-  // The quality of JPEG and WebP is chosen so that the loss is invisible and text stays sharp.
+  // The quality of WebP is chosen so that the loss is invisible and text stays sharp.
   constexpr std::array kOfTiff{"none", "lzw", "zip"};
-  image.compression = is_jpeg(extension)     ? "jpeg:95"
-                      : extension == ".webp" ? "webp:95"
-                      : tiff                 ? kOfTiff[static_cast<std::size_t>(settings.tiff.compression)]
-                                             : "zip";
+  image.compression = extension == ".webp" ? "webp:95"
+                      : tiff               ? kOfTiff[static_cast<std::size_t>(settings.tiff.compression)]
+                                           : "zip";
   if (settings.names_program) image.software = "Meniscus " MENISCUS_VERSION;
   if (exr || tiff) image.date = date_of_pictures();
   image.command = settings.command;
@@ -223,22 +222,9 @@ ImageToEncode described(glm::ivec2 size, const std::vector<std::string>& channel
   return image;
 }
 
-/// Throws if the limit on the size of files is below the size of the uncompressed pixels. libtiff writes an important
-/// part of the file last, and does not report if it fails there because of the limit.
-void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode& image) {
-  constexpr std::uint64_t kDirectories = 1 << 16, kOfALine = 32;
-  const std::uint64_t pixels = pixel_bytes(image), lines = static_cast<std::uint64_t>(image.height);
-  const std::uint64_t largest = pixels + pixels / 1000 + kOfALine * lines + kDirectories;
-  const std::uint64_t limit = system_file::largest_file();
-  if (limit < largest)
-    throw OutputError(text_of_path(path), "may have up to {} bytes, but the system limits files to {} (ulimit -f)",
-                      with_thousands(largest), with_thousands(limit));
-}
-
 }  // namespace
 
-/// The file of an ImageWriter. OpenImageIO writes to memory only, because its PNG writer ignores failed writes to the
-/// disk.
+/// The file of an ImageWriter. Encoders write to memory only.
 class ImageWriter::File {
  public:
   File(const std::filesystem::path& path, glm::ivec2 size, const PictureLayers& layers, ImageSettings settings)
@@ -257,8 +243,7 @@ class ImageWriter::File {
       png_.emplace(image, [this](std::span<const std::uint8_t> bytes) { output_.write(std::as_bytes(bytes)); });
       return;
     }
-    if (image.format == "tiff") refuse_limited_size(path, image);
-    encoding([&] { rows_ = image_codec().begin(image); });
+    encoding([&] { rows_ = begin_rows(image); });
   }
 
   void add(const Framebuffer& picture) {
@@ -311,7 +296,8 @@ class ImageWriter::File {
 bool holds_aovs(const std::filesystem::path& path) { return extension_of(path) == ".exr"; }
 
 bool is_encoded_in_memory(const std::filesystem::path& path) {
-  return extension_of(path) == ".exr" || extension_of(path) == ".webp";
+  constexpr std::array<std::string_view, 3> kStreamed{".png", ".svg", ".pdf"};
+  return std::ranges::find(kStreamed, extension_of(path)) == kStreamed.end();
 }
 
 std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const std::optional<glm::vec3>& background,
@@ -329,8 +315,8 @@ std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const std::opt
 }
 
 void check_image_path(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 6> kByOpenImageIO{".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr"};
-  constexpr std::array<std::string_view, 3> kOwn{".png", ".svg", ".pdf"};
+  constexpr std::array<std::string_view, 2> kByOpenImageIO{".webp", ".exr"};
+  constexpr std::array<std::string_view, 7> kOwn{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".svg", ".pdf"};
   const std::string extension = extension_of(path);
   if (std::ranges::find(kOwn, extension) != kOwn.end()) return;
   if (std::ranges::find(kByOpenImageIO, extension) == kByOpenImageIO.end())

@@ -29,7 +29,7 @@ def of_system(binary):
 
 
 #: The libraries that are part of glibc, Windows and macOS.
-OF_SYSTEMS = re.compile(r"lib(c|dl|m|pthread|rt)\.so\.\d$|ld-linux-.*|api-ms-win-crt-.*|(kernel32|shell32|ws2_32)\.dll$|"
+OF_SYSTEMS = re.compile(r"lib(c|dl|m|pthread|rt)\.so\.\d$|ld-linux-.*|api-ms-win-crt-.*|(kernel32|shell32|ws2_32|mswsock|advapi32)\.dll$|"
                         r"/usr/lib/libSystem\.B\.dylib$", re.IGNORECASE)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds libmeniscus and the programs for Linux, Windows and macOS, meniscus without GL and with PNG as its only format of
-# pictures; runs them where this machine can, and compares the results of all.
+# Builds libmeniscus and the programs for Linux, Windows and macOS, meniscus without GL, WebP and EXR; runs them where this
+# machine can, and compares the results of all.
 #
 #   scripts/package/targets.sh [--build-only] [TARGET...]
 #
@@ -28,7 +28,7 @@ while (($#)); do
 done
 ((${#chosen[@]})) || chosen=("${order[@]}")
 
-install_packages "${target_packages[@]}" "${build_packages[@]}" "${sample_packages[@]}" freesasa python3-prody-tests
+install_packages "${target_packages[@]}" "${build_packages[@]}" "${sample_packages[@]}" freesasa python3-prody-tests python3-websockets
 root=$PWD
 work=$root/build/targets
 sources=$work/sources
@@ -48,7 +48,7 @@ if [[ ! -d $lists ]]; then
   sed 's/^Types: .*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources > "$work/debian.sources"
 fi
 apt=(apt-get -q -o Dir::Etc::sourcelist="$work/debian.sources" -o Dir::Etc::sourceparts=- -o Dir::State::lists="$lists")
-packages=(onetbb freetype zlib libdeflate fmtlib musl)
+packages=(onetbb freetype zlib libdeflate libjpeg-turbo fmtlib musl)
 for package in "${packages[@]}"; do
   compgen -G "$sources/$package-*" > /dev/null && continue
   compgen -G "$lists/*Sources*" > /dev/null || "${apt[@]}" update > /dev/null
@@ -123,6 +123,7 @@ build_dependencies() {
   cp -r /usr/include/{glm,nlohmann,CLI} "$gemmi/include/gemmi" "$zlib/zlib.h" "$deflate/libdeflate.h" "$prefix/include"
   cp "$zlib/zconf.h.in" "$prefix/include/zconf.h"
   cp -r /usr/share/cmake/{glm,nlohmann_json,CLI11} "$prefix/share/cmake"
+  ln -sfn /usr/include/boost "$prefix/include/boost"
   by_hand z "$zlib" "-I$prefix/include -DHAVE_UNISTD_H -D_LARGEFILE64_SOURCE=1 -Dfdopen=fdopen" adler32.c compress.c crc32.c \
     deflate.c inflate.c inffast.c inftrees.c trees.c zutil.c uncompr.c
   by_hand deflate "$deflate" "-I$deflate" $(cd "$deflate" && ls lib/*.c lib/*/*.c)
@@ -131,13 +132,14 @@ build_dependencies() {
   with_cmake "$(source_of onetbb)" -DTBB_TEST=OFF -DTBB_STRICT=OFF -DTBBMALLOC_BUILD=OFF \
     -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON
   with_cmake "$(source_of fmtlib)" -DFMT_TEST=OFF -DFMT_DOC=OFF
+  with_cmake "$(source_of libjpeg-turbo)" -DENABLE_SHARED=OFF -DWITH_SIMD=OFF
   with_cmake "$(source_of freetype)" -DFT_REQUIRE_ZLIB=ON -DFT_DISABLE_{BZIP2,PNG,HARFBUZZ,BROTLI}=ON
 }
 
 build_library() {
   cmake -S "$root" -B "$target_folder/library" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE="$root/scripts/cmake/zig.cmake" -DMENISCUS_ZIG="$zig" -DMENISCUS_ZIG_TARGET="$triple" \
-    -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DMENISCUS_{TESTS,GL,IMAGES,HDF5,PREVIEW}=OFF \
+    -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DMENISCUS_{TESTS,GL,IMAGES,HDF5}=OFF \
     -DMENISCUS_LIBM="$prefix/lib/libmeniscus_libm.a" \
     -DMENISCUS_{GEMMI,ZLIB,JSON,DEFLATE,SCENES}=ON
   # ccache sees a wrapper, so this names the compiler and its target
@@ -192,9 +194,19 @@ run_programs() {
   cd ../drawn
   cp "${molecules[0]}" Å.pdb
   "${on_target[@]}" "../meniscus$suffix" render Å.pdb -o Å.png --size 320x240 -q
+  local format
+  for format in tif jpg; do "${on_target[@]}" "../meniscus$suffix" render Å.pdb -o Å.$format --size 320x240 -q; done
   "${on_target[@]}" "../meniscus$suffix" surface Å.pdb --csv atoms.csv --csv-residues residues.csv -q > /dev/null
   "${on_target[@]}" "../meniscus$suffix" export povray Å.pdb -o povray -q > /dev/null
   cd "$root"
+}
+
+# Asks the preview for pictures, as a page does.
+show_preview() {
+  printf '#!/bin/sh\nexec %s "$@"\n' "${on_target[*]} $target_folder/meniscus$suffix" > "$target_folder/shown"
+  chmod +x "$target_folder/shown"
+  python3 -B tests/preview/server_test.py "$target_folder/shown" app/preview/server/page \
+    Server.test_pictures_come_when_asked_and_are_exact_at_rest > "$target_folder/shown.log" 2>&1
 }
 
 # Checks the library and the programs without running them.
@@ -237,7 +249,7 @@ for target in "${chosen[@]}"; do
     *)
       # Subshells end at a failure, which they would not do in a condition.
       if [[ $run ]]; then
-        for step in write_table run_programs; do
+        for step in write_table run_programs show_preview; do
           set +e
           (set -e; "$step")
           result=$?

@@ -45,9 +45,8 @@ class NoRoom : public ::testing::Test {
 };
 
 TEST_F(NoRoom, ForAPicture) {
-  for (const auto& [extension, reason] :
-       {std::pair{"png", "File too large"}, {"tif", "limits files to 512"}, {"exr", "File too large"}})
-    expect_refused(1, fmt::format("render {} -q --size 64x48 -o {}a.{}", in_, out_, extension), reason);
+  for (const char* const extension : {"png", "tif", "jpg", "exr"})
+    expect_refused(1, fmt::format("render {} -q --size 64x48 -o {}a.{}", in_, out_, extension), "File too large");
 }
 
 TEST_F(NoRoom, ForASceneOrTable) {

@@ -120,6 +120,71 @@ TEST_F(ImageFile, JpegHasWhiteBehindAndWebPItsAlpha) {
   EXPECT_NEAR(file.at(kFull, "G"), srgb_from_linear(0.2f), 0.02);
 }
 
+/// Colours that repeat in part, so that tables of texts are long and become full.
+Framebuffer noisy(glm::ivec2 size) {
+  Framebuffer picture;
+  picture.size = size;
+  std::uint32_t noise = 1;
+  for (int n = 0; n < size.x * size.y; ++n) {
+    noise = noise * 1664525u + 1013904223u;
+    const float light = static_cast<float>(n % size.x) / static_cast<float>(size.x);
+    picture.color.emplace_back(glm::vec3(light, static_cast<float>(noise >> 24) / 255.0f, 0.5f * light), 1.0f);
+    if (n % 5 == 0) picture.color.back() *= static_cast<float>(noise >> 28) / 15.0f;
+  }
+  return picture;
+}
+
+TEST_F(ImageFile, TiffKeepsEveryValue) {
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(7, 33), glm::ivec2(301, 200)})
+    for (const auto compression : {TiffCompression::none, TiffCompression::lzw, TiffCompression::zip})
+      for (const int bits : {8, 16})
+        for (const auto& background : {std::optional<glm::vec3>(), std::optional(glm::vec3(0.2f, 0.5f, 1.0f))}) {
+          SCOPED_TRACE(fmt::format("{}x{}, {}, {} bits, {}", size.x, size.y, static_cast<int>(compression), bits,
+                                   background ? "opaque" : "transparent"));
+          const Framebuffer picture = noisy(size);
+          ImageSettings settings{.background = background, .existing = Existing::replace};
+          settings.linear_alpha = false;
+          settings.tiff = {compression, bits};
+          write_image(folder_ / "a.tif", picture, settings);
+          OIIO::ImageSpec as_stored;
+          as_stored.attribute("oiio:UnassociatedAlpha", 1);
+          auto input = OIIO::ImageInput::open((folder_ / "a.tif").string(), &as_stored);
+          ASSERT_TRUE(input) << OIIO::geterror();
+          const auto type = bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+          EXPECT_EQ(input->spec().format, type);
+          const std::vector<std::uint8_t> wanted = srgb_pixels(picture, background, bits / 8);
+          std::vector<std::uint8_t> stored(wanted.size());
+          ASSERT_EQ(input->spec().image_bytes(), stored.size());
+          ASSERT_TRUE(input->read_image(0, 0, 0, -1, type, stored.data())) << input->geterror();
+          EXPECT_TRUE(stored == wanted);
+        }
+}
+
+TEST_F(ImageFile, JpegIsThatOfOpenImageIO) {
+  const Framebuffer picture = noisy({301, 200});
+  const glm::vec3 white(1.0f);
+  write_image(folder_ / "a.jpg", picture, {white, Existing::refuse});
+  OIIO::ImageSpec spec(301, 200, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("compression", "jpeg:95");
+  spec.attribute("jpeg:subsampling", "4:4:4");
+  const auto output = OIIO::ImageOutput::create("b.jpg");
+  ASSERT_TRUE(output && output->open((folder_ / "b.jpg").string(), spec));
+  const std::vector<std::uint8_t> pixels = srgb_pixels(picture, white, 1);
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) && output->close());
+  EXPECT_EQ(read(folder_ / "a.jpg").values, read(folder_ / "b.jpg").values);
+}
+
+TEST_F(ImageFile, JpegSaysWhatItCannotHold) {
+  ImageSettings settings;
+  settings.scene.assign(70000, ' ');
+  EXPECT_THROW(write_image(folder_ / "a.jpg", picture(), settings), OutputError);
+  Framebuffer wide;
+  wide.size = {65501, 1};
+  wide.color.resize(65501);
+  EXPECT_THROW(write_image(folder_ / "a.jpg", wide, {}), OutputError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
 TEST_F(ImageFile, TiffAndJpegHaveAProfile) {
   for (const char* name : {"a.tif", "a.jpg"}) {
     write_image(folder_ / name, picture(), {});

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The preview server refuses or endures difficult clients: arguments PROGRAM PAGE_FOLDER."""
+"""The preview server refuses or endures difficult clients: arguments PROGRAM PAGE_FOLDER [TEST...]."""
 
 import asyncio
 import http.client
@@ -358,4 +358,4 @@ class Server(ServerCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

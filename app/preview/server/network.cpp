@@ -18,6 +18,13 @@ namespace meniscus {
 
 namespace asio = boost::asio;
 
+#ifdef _WIN32
+// Where a port may be reused, Windows lets other programs have it at the same time.
+using PortOption = asio::detail::socket_option::boolean<SOL_SOCKET, SO_EXCLUSIVEADDRUSE>;
+#else
+using PortOption = asio::socket_base::reuse_address;
+#endif
+
 struct Network::State {
   State(const NetworkOptions& options, Mailbox& mailbox)
       : acceptor(context),
@@ -28,7 +35,7 @@ struct Network::State {
       acceptor.open(here.protocol());
       // A browser that this program starts must not keep the port.
       system_process::keep_from_children(static_cast<std::intptr_t>(acceptor.native_handle()));
-      acceptor.set_option(asio::socket_base::reuse_address(true));
+      acceptor.set_option(PortOption(true));
       acceptor.bind(here);
       acceptor.listen();
       clients->port = acceptor.local_endpoint().port();

@@ -4,12 +4,11 @@
 
 #include <new>
 
-#include <turbojpeg.h>
-
 #include "app/preview/server/clients.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/png_file.h"
+#include "core/image/print_file.h"
 #include "exporters/page/page_file.h"
 
 namespace meniscus {
@@ -211,8 +210,8 @@ class ServedSession {
     const glm::ivec2 size = session_.picture_size();
     const auto begin = Clock::now();
     const bool full = quality == Quality::full;
-    picture_.bytes = std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size, scene())
-                                                                            : encode_jpeg(rgba, size, true));
+    picture_.bytes = std::make_shared<const std::vector<std::uint8_t>>(
+        full ? png_of(rgba, size, scene()) : encode_jpeg(rgba, size.x, size.y, JpegUse::draft));
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - begin;
     ++picture_.number;
     picture_.revision = session_.state().revision;
@@ -267,21 +266,6 @@ class ServedSession {
 };
 
 }  // namespace
-
-std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> rgba, glm::ivec2 size, bool quickly) {
-  constexpr int kQuality = 80;  // 0 to 100
-  const std::unique_ptr<void, int (*)(void*)> compressor(tjInitCompress(), tjDestroy);
-  if (!compressor) throw Error(std::string("JPEG: ") + tjGetErrorStr2(nullptr));
-  unsigned char* bytes = nullptr;
-  unsigned long count = 0;
-  const int failed = tjCompress2(compressor.get(), rgba.data(), size.x, 0, size.y, TJPF_RGBX, &bytes, &count,
-                                 quickly ? TJSAMP_420 : TJSAMP_444, kQuality, quickly ? TJFLAG_FASTDCT : 0);
-  std::vector<std::uint8_t> result;
-  if (!failed) result.assign(bytes, bytes + count);
-  tjFree(bytes);
-  if (failed) throw Error(std::string("JPEG: ") + tjGetErrorStr2(compressor.get()));
-  return result;
-}
 
 void serve_session(const ServeOptions& options, const MakeSession& make) {
   Mailbox mailbox;

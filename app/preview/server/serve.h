@@ -29,8 +29,4 @@ using MakeSession = std::function<std::unique_ptr<PreviewSession>(const Received
 /// Network throws and, after the pages were notified, GpuError and what `make` throws for the first session.
 void serve_session(const ServeOptions& options, const MakeSession& make);
 
-/// Returns a picture as JPEG; nothing in a build without TurboJPEG. rgba: 4 bytes per pixel, rows from the top; alpha
-/// is left out. quickly: colours have half the resolution, which is enough for moving views. Throws Error if it fails.
-std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> rgba, glm::ivec2 size, bool quickly);
-
 }  // namespace meniscus
