@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses encoders, loads the module with OpenImageIO, and finds the time that files bear.
+// Loads the module with OpenImageIO, and finds the time that files bear.
 #include "core/image/image_codec.h"
 
 #include <charconv>
@@ -8,7 +8,6 @@
 
 #include "core/base/module_file.h"
 #include "core/base/version.h"
-#include "core/image/print_file.h"
 
 namespace meniscus {
 namespace {
@@ -24,10 +23,6 @@ const ImageCodec& load() {
 }
 
 }  // namespace
-
-std::unique_ptr<RowEncoder> begin_rows(const ImageToEncode& image) {
-  return image.format == "tiff" || image.format == "jpeg" ? print_rows(image) : image_codec().begin(image);
-}
 
 const ImageCodec& image_codec() {
   static const ImageCodec& codec = load();

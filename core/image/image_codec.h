@@ -78,10 +78,6 @@ class ImageCodec {
   virtual std::string library() const = 0;
 };
 
-/// Returns an encoder of TIFF or JPEG, or the codec's for other formats. Throws what image_codec() and the encoder
-/// throw.
-std::unique_ptr<RowEncoder> begin_rows(const ImageToEncode& image);
-
 /// Returns the codec, and loads the module at the first call; from any thread. Throws Error if it is missing or of
 /// another build, CapacityError if the system cannot load it.
 const ImageCodec& image_codec();

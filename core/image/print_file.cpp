@@ -284,9 +284,10 @@ std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> pixels, int 
   return result;
 }
 
-std::unique_ptr<RowEncoder> print_rows(const ImageToEncode& image) {
+std::unique_ptr<RowEncoder> begin_rows(const ImageToEncode& image) {
   if (image.format == "tiff") return std::make_unique<TiffRows>(image);
-  return std::make_unique<JpegRows>(image);
+  if (image.format == "jpeg") return std::make_unique<JpegRows>(image);
+  return image_codec().begin(image);
 }
 
 }  // namespace meniscus

@@ -17,9 +17,10 @@ enum class JpegUse : std::uint8_t {
 /// TurboJPEG fails.
 std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> pixels, int width, int height, JpegUse use);
 
-/// Returns an encoder of "tiff", with 8 or 16 bits per channel and the compression "none", "lzw" or "zip", or of
-/// "jpeg", with three channels of 8 bits. Throws std::runtime_error if a TIFF file would have more than 4 GiB, a JPEG
-/// file more than 65,500 pixels a side, or one of its texts more than 64 KiB.
-std::unique_ptr<RowEncoder> print_rows(const ImageToEncode& image);
+/// Returns an encoder of "tiff", with 8 or 16 bits per channel and the compression "none", "lzw" or "zip"; of "jpeg",
+/// with three channels of 8 bits; or the codec's encoder for other formats. Throws the errors of image_codec();
+/// std::runtime_error if a TIFF file would have more than 4 GiB, a JPEG file more than 65,500 pixels a side, or one of
+/// its texts more than 64 KiB.
+std::unique_ptr<RowEncoder> begin_rows(const ImageToEncode& image);
 
 }  // namespace meniscus

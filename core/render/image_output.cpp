@@ -18,6 +18,7 @@
 #include "core/base/version.h"
 #include "core/image/image_codec.h"
 #include "core/image/png_file.h"
+#include "core/image/print_file.h"
 
 namespace meniscus {
 namespace {
