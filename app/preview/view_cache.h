@@ -114,7 +114,7 @@ class ViewCache {
 
   /// The state and quality of the last picture.
   struct Drawn {
-    std::uint64_t revision = 0;  ///< 0: there is no picture
+    std::uint64_t revision = 0;  ///< revision of the drawn state; 0 before the first picture
     Quality quality = Quality::draft;
     std::shared_ptr<const LegendStrip> legend;
   };

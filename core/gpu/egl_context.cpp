@@ -243,7 +243,7 @@ bool EglContext::try_device(const DeviceAttempt& attempt, const std::string& ker
   const std::array<EGLint, 3> config_attributes{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint config_count = 0;
-  // Without a surface any config with OpenGL is suitable, and none is needed if EGL_KHR_no_config_context is offered.
+  // A context without a surface takes any config with OpenGL, or none if EGL_KHR_no_config_context is offered.
   if (!eglChooseConfig(display, config_attributes.data(), &config, 1, &config_count) || config_count == 0)
     config = nullptr;
   // If the driver notifies of resets, work that a reset destroyed is known to be lost.

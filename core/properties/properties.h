@@ -44,7 +44,7 @@ inline constexpr double kUnlimited = 1e18;
 struct Property {
   ValueType type;
   std::string_view key;     ///< section and name, "look.silhouettes": unique; with in_scene, also in scene files
-  std::string_view option;  ///< spelling of CLI11: "--silhouettes", "-o,--output", "FILE"
+  std::string_view option;  ///< names on the command line, in CLI11's form
   std::string_view value;   ///< the name of the value in the help: "WIDTH"; empty for flags
   std::string_view help;    ///< begins with a capital letter, ends without a full stop; with_options() spells "@probe@"
   std::string_view heading{};

@@ -14,7 +14,7 @@ struct Cavity {
   double volume = 0.0;  ///< Å³, positive
   /// Indices into Surface::atoms of the atoms that a probe in the cavity can touch; ascending.
   std::vector<std::uint32_t> atoms;
-  /// The centres (Å) of the probes at rest in it, each of which touches three atoms or more.
+  /// Centres (Å) of probes at rest in the cavity. A probe at rest touches three atoms or more.
   std::vector<glm::dvec3> probes;
 
   /// Returns the mean (Å) of the probes at rest.

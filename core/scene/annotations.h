@@ -49,8 +49,8 @@ LabelRequest parse_label(std::string_view text);
 /// nothing if there is no curve. Throws InputError.
 std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames);
 
-/// Returns the texts and marks in a picture of the structure, without the time. `lengths` are those of its dashed
-/// lines; they follow the requested labels. Throws InputError for a label that selects no atoms.
+/// Returns the texts and marks in a picture of the structure, without the time. `lengths` are the labels of its
+/// dashed lines; they follow the requested labels. Throws InputError for a label that selects no atoms.
 Annotations annotations_of(const AnnotationRequest& request, const Structure& structure,
                            std::span<const PlaceLabel> lengths = {});
 

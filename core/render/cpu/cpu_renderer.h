@@ -78,7 +78,8 @@ class CpuRenderer {
     SceneBlock at;
     const RenderSettings& settings;
     bool hits = false;  ///< true: hits are requested, too
-    /// This is called after each sample, when its hits are complete. Empty: hits are those of the first sample.
+    /// The renderer calls this function after each sample, when the sample's hits are complete. Without it the hits
+    /// of the first sample are kept.
     std::function<void(int sample)> after_sample{};
 
     std::size_t pixel_count() const { return static_cast<std::size_t>(at.block.size.x) * at.block.size.y; }
