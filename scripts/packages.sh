@@ -7,7 +7,7 @@ build_packages=(
   libepoxy-dev libegl-dev libglm-dev libopenimageio-dev openimageio-tools libfreetype-dev gemmi-dev tao-pegtl-dev
   libcli11-dev libfmt-dev
   nlohmann-json3-dev libtbb-dev zlib1g-dev libdeflate-dev
-  libboost-dev libturbojpeg0-dev libhdf5-dev fonts-liberation2
+  libboost-dev libturbojpeg0-dev libtiff-dev libhdf5-dev fonts-liberation2
 )
 # These are EGL and software GL, and a font with the letters that Liberation Sans does not have.
 run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri fonts-dejavu-core)

@@ -48,7 +48,7 @@ if [[ ! -d $lists ]]; then
   sed 's/^Types: .*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources > "$work/debian.sources"
 fi
 apt=(apt-get -q -o Dir::Etc::sourcelist="$work/debian.sources" -o Dir::Etc::sourceparts=- -o Dir::State::lists="$lists")
-packages=(onetbb freetype zlib libdeflate libjpeg-turbo fmtlib musl)
+packages=(onetbb freetype zlib libdeflate libjpeg-turbo tiff fmtlib musl)
 for package in "${packages[@]}"; do
   compgen -G "$sources/$package-*" > /dev/null && continue
   compgen -G "$lists/*Sources*" > /dev/null || "${apt[@]}" update > /dev/null
@@ -133,6 +133,8 @@ build_dependencies() {
     -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON
   with_cmake "$(source_of fmtlib)" -DFMT_TEST=OFF -DFMT_DOC=OFF
   with_cmake "$(source_of libjpeg-turbo)" -DENABLE_SHARED=OFF -DWITH_SIMD=OFF
+  with_cmake "$(source_of tiff)" -Dtiff-{tools,tests,contrib,docs,deprecated}=OFF -Dcxx=OFF \
+    -D{jpeg,old-jpeg,jbig,lerc,lzma,zstd,webp,mdi,ccitt,packbits,thunder,next,logluv,pixarlog}=OFF
   with_cmake "$(source_of freetype)" -DFT_REQUIRE_ZLIB=ON -DFT_DISABLE_{BZIP2,PNG,HARFBUZZ,BROTLI}=ON
 }
 

@@ -41,7 +41,8 @@ PROGRAMS = {"meniscus": "meniscus", "meniscus-msms": "meniscus-msms", "meniscus-
 #: build/targets/sources or in the system. The first file that exists counts.
 PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "freetype-*/docs/FTL.TXT"),
          ("zlib", "Zlib", "zlib-*/LICENSE"), ("libdeflate", "MIT", "libdeflate-*/COPYING"),
-         ("libjpeg-turbo", "IJG AND BSD-3-Clause", "libjpeg-turbo-*/LICENSE.md"), ("Boost", "BSL-1.0", "/usr/share/doc/libboost1.74-dev/copyright"),
+         ("libjpeg-turbo", "IJG AND BSD-3-Clause", "libjpeg-turbo-*/LICENSE.md"), ("libtiff", "libtiff", "tiff-*/LICENSE.md"),
+         ("Boost", "BSL-1.0", "/usr/share/doc/libboost1.74-dev/copyright"),
          ("fmt", "MIT", "fmtlib-*/LICENSE.rst"), ("musl", "MIT", "musl-*/COPYRIGHT"), ("gemmi", "MPL-2.0", "gemmi-*/LICENSE*"),
          ("PEGTL", "MIT", "/usr/share/doc/tao-pegtl-dev/copyright"), ("GLM", "MIT", "/usr/share/doc/libglm-dev/copyright"),
          ("Liberation Sans", "OFL-1.1", "/usr/share/doc/fonts-liberation2/copyright"),
