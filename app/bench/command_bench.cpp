@@ -2,6 +2,7 @@
 // `meniscus bench`: times the stages of the surface for several molecules, one row each, like table 1 of the paper
 // (Krone, Dachsbacher & Ertl 2010).
 #include <iostream>
+#include <tuple>
 
 #include <fmt/ostream.h>
 

@@ -2,6 +2,8 @@
 // Implements the sequential rolling probe: first face, next face by smallest angle, restarts for other components.
 #include "app/bench/rolling_probe.h"
 
+#include <utility>
+
 #include "core/math/ball.h"
 
 namespace meniscus {

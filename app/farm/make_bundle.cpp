@@ -3,6 +3,7 @@
 #include "app/farm/make_bundle.h"
 
 #include <fstream>
+#include <iterator>
 
 #include "app/farm/bundle_folder.h"
 #include "app/farm/worker.h"

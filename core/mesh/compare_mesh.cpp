@@ -2,6 +2,8 @@
 // Compares a surface with its mesh by areas and volumes, and measures distances from points to triangles.
 #include "core/mesh/compare_mesh.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "core/surface/walks.h"

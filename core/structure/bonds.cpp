@@ -5,6 +5,7 @@
 
 #include <numeric>
 #include <set>
+#include <unordered_map>
 
 #include <gemmi/elem.hpp>
 #include <glm/matrix.hpp>

@@ -2,6 +2,7 @@
 // Computes cut lists and cusp arcs on the CPU. The order of probes decides on one spindle circle, a pencil.
 #include "core/surface/cusp_tracer.h"
 
+#include <iterator>
 #include <utility>
 
 #include <tbb/blocked_range.h>

@@ -4,6 +4,7 @@
 
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include <tbb/blocked_range.h>
 

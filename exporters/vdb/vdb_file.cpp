@@ -3,6 +3,7 @@
 #include "exporters/vdb/vdb_file.h"
 
 #include <bitset>
+#include <limits>
 #include <map>
 
 #include <glm/common.hpp>

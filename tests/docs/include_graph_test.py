@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """include_graph_test.py [--list | --dot]: the order of folders.
 
-No file includes one of a later folder; headers with their sources make no ring; the drawing of the manual shows the
-folders as they are: `include_graph_test.py --dot | dot -Tsvg > docs/explanation/folders.svg`."""
+No file includes one of a later folder; headers with their sources make no ring; each file includes what it names of the
+standard library, because other systems' headers bring along less. The drawing of the manual shows the folders as they
+are: `include_graph_test.py --dot | dot -Tsvg > docs/explanation/folders.svg`."""
 
 import html
 
@@ -50,6 +51,29 @@ ORDER = [
     ["app/bench"],
     ["app"],
 ]
+# For each header of the standard library, names that nearly always come from it.
+STANDARD = {
+    "algorithm": "sort|stable_sort|find_if|any_of|all_of|none_of|copy_if|clamp|lower_bound|upper_bound|ranges::(?:sort|find|find_if|any_of|"
+                 "all_of|none_of|copy|transform|count|max|min|fill|lower_bound|upper_bound|equal|for_each)",
+    "array": "array", "atomic": r"atomic\w*", "bit": "bit_cast|popcount|countr_zero|countl_zero|bit_width|bit_ceil|rotl|endian",
+    "charconv": "from_chars|to_chars", "chrono": r"chrono::\w+", "condition_variable": r"condition_variable\w*",
+    "cmath": "sqrt|fabs|sin|cos|acos|asin|atan2|pow|exp|log|floor|ceil|round|lround|hypot|isfinite|isnan|ldexp|nextafter|cbrt",
+    "concepts": "same_as|integral|floating_point|invocable", "cstring": "memcpy|memcmp|strlen|strerror|memset", "deque": "deque",
+    "exception": "exception_ptr|current_exception|rethrow_exception", "filesystem": r"filesystem::\w+",
+    "fstream": "fstream|ifstream|ofstream", "functional": "function|greater|plus|reference_wrapper|ref", "future": "future|async|promise",
+    "iomanip": "setw|setprecision", "iostream": "cout|cerr|cin", "iterator": "back_inserter|next|prev|distance|istreambuf_iterator|ssize",
+    "limits": "numeric_limits", "list": "list", "map": "map|multimap", "memory": "unique_ptr|shared_ptr|make_unique|make_shared",
+    "mutex": "mutex|lock_guard|scoped_lock|unique_lock|once_flag|call_once",
+    "numbers": r"numbers::\w+", "numeric": "accumulate|iota|reduce|inner_product|partial_sum|exclusive_scan|gcd|lcm|midpoint",
+    "optional": "optional|nullopt", "queue": "priority_queue|queue", "random": r"mt19937\w*|\w+_distribution", "ranges": r"views::\w+|ranges::subrange",
+    "regex": r"regex\w*", "set": "set|multiset", "span": "span|as_bytes", "sstream": "stringstream|istringstream|ostringstream",
+    "stdexcept": "runtime_error|invalid_argument|out_of_range|logic_error", "string": "string|to_string", "string_view": "string_view",
+    "thread": "thread|jthread", "tuple": "tuple|tie|make_tuple|apply", "type_traits": r"is_\w+_v|conditional_t|decay_t|remove_\w+_t",
+    "unordered_map": "unordered_map", "unordered_set": "unordered_set", "utility": "pair|move|swap|exchange|forward",
+    "variant": "variant|visit|holds_alternative|get_if|monostate", "vector": "vector",
+}
+STANDARD = {header: re.compile(rf"std::(?:{names})\b") for header, names in STANDARD.items()}
+STANDARD_INCLUDE = re.compile(r"^\s*#\s*include\s*<([a-z_]+)>", re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
@@ -80,6 +104,22 @@ def arrows_back(graph, order):
             if here and there and here[1] != there[1] and there[0] >= here[0]:
                 wrong.append(f"{path} ({here[1]}) includes {name} ({there[1]})")
     return wrong
+
+
+def missing_headers(graph, read):
+    """Each standard header that a file should include, itself or through other files of ours."""
+    texts = {path: re.sub(r"//.*", "", read(path)) for path in graph}
+
+    def reached(path, seen):
+        seen.add(path)
+        return set(STANDARD_INCLUDE.findall(texts[path])).union(
+            *(reached(name, seen) for name in graph[path] if name in graph and name not in seen))
+
+    missing = []
+    for path, text in texts.items():
+        headers = reached(path, set())
+        missing += [f"{path}: #include <{header}>" for header, names in STANDARD.items() if header not in headers and names.search(text)]
+    return missing
 
 
 def units(graph):
@@ -162,6 +202,9 @@ class IncludeGraph(unittest.TestCase):
     def test_no_files_include_each_other(self):
         self.assertEqual(rings(units(sources())), [])
 
+    def test_every_file_includes_what_it_names(self):
+        self.assertEqual(missing_headers(sources(), lambda path: (ROOT / path).read_text()), [])
+
     def test_what_is_wrong_is_found(self):
         order = [["a"], ["b", "c"], ["b/inner"]]
         graph = {"a/x.h": ["b/x.h"], "b/x.h": ["a/x.h", "c/x.h"], "c/x.h": [], "b/inner/x.h": ["b/x.h"]}
@@ -170,6 +213,8 @@ class IncludeGraph(unittest.TestCase):
         pair = {"a/x.h": [], "a/x.cpp": ["a/x.h", "a/y.h"], "a/y.h": [], "a/y.cpp": ["a/y.h", "a/x.h"]}
         self.assertEqual(rings(pair), [])
         self.assertEqual(rings(units(pair)), ["a/x -> a/y -> a/x"])
+        texts = {"a/x.h": "#include <vector>\n// std::map\nstd::vector<int> x;", "a/x.cpp": "std::vector<int> y; std::numbers::pi;"}
+        self.assertEqual(missing_headers({"a/x.h": [], "a/x.cpp": ["a/x.h"]}, texts.get), ["a/x.cpp: #include <numbers>"])
 
 
 if __name__ == "__main__":

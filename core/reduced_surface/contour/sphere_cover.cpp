@@ -4,6 +4,7 @@
 #include "core/reduced_surface/contour/blockers.h"
 
 #include <cassert>
+#include <numbers>
 
 #include <glm/common.hpp>
 
