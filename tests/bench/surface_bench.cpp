@@ -3,6 +3,7 @@
 //
 // build/tests/bench/surface_bench --benchmark_filter=cpu   per_atom should not grow with the size
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <vector>
 

@@ -11,6 +11,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "tests/c_api/c_objects.h"

@@ -2,6 +2,7 @@
 // The C++ header over the C interface: closed forms through every class, errors as exceptions, ownership.
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <span>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures through the C++ header have the sphere's size, and are refused where there is no room.
 #include <numbers>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>

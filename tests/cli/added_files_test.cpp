@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several molecules in one figure: files that are added, superposed, and distinguished as models.
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colour options of users: numbers from a file, legends, errors, and names from a hostile file.
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -3,9 +3,12 @@
 // replaces another. Commands and options are those of the program's own completion and table of properties, so that new
 // ones are included.
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

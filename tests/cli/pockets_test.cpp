@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/run_program.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus::test {
 namespace {
@@ -57,7 +58,7 @@ TEST(Pockets, WhereALigandWasIsFoundFirst) {
     std::size_t atoms, inside;
   };
   for (const Case& each : {Case{kProtease, "478", 35, 35}, {kMethylase, "SAH", 26, 26}, {kAntibody, "HEP", 23, 16}}) {
-    if (!std::filesystem::exists(each.file)) GTEST_SKIP() << each.file << " is missing";
+    SKIP_WITHOUT(each.file);
     const ProgramResult result = pockets({each.file, "--json", "-q"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const Json json = Json::parse(result.out);

@@ -106,6 +106,7 @@ TEST(Radii, InfoTellsWhatEveryClassGot) {
 }
 
 TEST(Assembly, IsListedBuiltAndInstanced) {
+  SKIP_WITHOUT(kReceptor);
   const ProgramResult list = says({"surface", kReceptor, "--assembly", "list"});
   EXPECT_EQ(list.exit_code, 0) << list.err;
   EXPECT_NE(list.out.find("DIMERIC"), std::string::npos) << list.out;

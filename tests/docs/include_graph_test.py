@@ -58,7 +58,9 @@ STANDARD = {
     "array": "array", "atomic": r"atomic\w*", "bit": "bit_cast|popcount|countr_zero|countl_zero|bit_width|bit_ceil|rotl|endian",
     "charconv": "from_chars|to_chars", "chrono": r"chrono::\w+", "condition_variable": r"condition_variable\w*",
     "cmath": "sqrt|fabs|sin|cos|acos|asin|atan2|pow|exp|log|floor|ceil|round|lround|hypot|isfinite|isnan|ldexp|nextafter|cbrt",
-    "concepts": "same_as|integral|floating_point|invocable", "cstring": "memcpy|memcmp|strlen|strerror|memset", "deque": "deque",
+    "concepts": "same_as|integral|floating_point|invocable",
+    "cstdio": "snprintf|printf|fprintf|fopen|fclose|fread|fwrite|fputs|fflush|remove", "cstdlib": "getenv|exit|_Exit|quick_exit|strtod|strtol|abort",
+    "cstring": "memcpy|memcmp|strlen|strerror|memset", "deque": "deque",
     "exception": "exception_ptr|current_exception|rethrow_exception", "filesystem": r"filesystem::\w+",
     "fstream": "fstream|ifstream|ofstream", "functional": "function|greater|plus|reference_wrapper|ref", "future": "future|async|promise",
     "iomanip": "setw|setprecision", "iostream": "cout|cerr|cin", "iterator": "back_inserter|next|prev|distance|istreambuf_iterator|ssize",
@@ -74,10 +76,11 @@ STANDARD = {
 }
 STANDARD = {header: re.compile(rf"std::(?:{names})\b") for header, names in STANDARD.items()}
 STANDARD_INCLUDE = re.compile(r"^\s*#\s*include\s*<([a-z_]+)>", re.M)
+FOLDERS = ("core", "gpu_shaders", "exporters", "app")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
-def sources(root=ROOT, folders=("core", "gpu_shaders", "exporters", "app")):
+def sources(root=ROOT, folders=FOLDERS):
     """Path of each file, and those of ours that it includes."""
     graph = {}
     for folder in folders:
@@ -203,7 +206,7 @@ class IncludeGraph(unittest.TestCase):
         self.assertEqual(rings(units(sources())), [])
 
     def test_every_file_includes_what_it_names(self):
-        self.assertEqual(missing_headers(sources(), lambda path: (ROOT / path).read_text()), [])
+        self.assertEqual(missing_headers(sources(folders=(*FOLDERS, "tests")), lambda path: (ROOT / path).read_text()), [])
 
     def test_what_is_wrong_is_found(self):
         order = [["a"], ["b", "c"], ["b/inner"]]

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <regex>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

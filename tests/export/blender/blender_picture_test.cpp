@@ -2,6 +2,7 @@
 // Depth and normals that Blender renders from an exported file, pixel by pixel against the sphere-tracing oracle.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numbers>
 

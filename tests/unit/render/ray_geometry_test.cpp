@@ -2,6 +2,7 @@
 // The ray caster's geometry in double: every root found, none invented, patches as theorem 1 says.
 #include "core/render/ray_geometry.h"
 
+#include <array>
 #include <numbers>
 #include <random>
 #include <vector>

@@ -13,6 +13,7 @@
 #include "core/structure/formats/read_structure.h"
 #include "tests/support/run_program.h"
 #include "tests/support/pdb_line.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -202,6 +203,7 @@ TEST(Assembling, NamesWhatIsThereWhenAskedForWhatIsNot) {
 }
 
 TEST(Assembling, ARealEntryHasTwoDimers) {
+  SKIP_WITHOUT(kReceptor);
   ReadOptions options;
   options.assembly = "2";
   const Structure dimer = read_structure(kReceptor, options);

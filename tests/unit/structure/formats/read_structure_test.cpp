@@ -44,6 +44,7 @@ TEST(RealEntries, CountsAreThePublishedOnes) {
 }
 
 TEST(RealEntries, TheRibosomeLosesItsFreeIonsAndItsLigand) {
+  SKIP_WITHOUT(kRibosome);
   const Structure ribosome = read_structure(kRibosome);
   EXPECT_EQ(ribosome.format, "mmCIF");
   EXPECT_EQ(ribosome.report.sentence(),
