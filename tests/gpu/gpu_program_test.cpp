@@ -13,7 +13,7 @@
 namespace meniscus {
 namespace {
 
-constexpr const char* kLavapipe = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+const std::string kLavapipe = vulkan_driver("lvp");
 
 /// Runs the program with more variables in its environment.
 test::ProgramResult run_with(std::vector<std::string> environment, const std::vector<std::string>& arguments) {
@@ -105,7 +105,7 @@ TEST_F(StoppingGpu, FarmLeavesTheFrameUndone) {
 }
 
 std::vector<std::string> zink_environment(const test::TemporaryFolder& folder) {
-  return {"LIBGL_ALWAYS_SOFTWARE=1", "MESA_LOADER_DRIVER_OVERRIDE=zink", std::string("VK_ICD_FILENAMES=") + kLavapipe,
+  return {"LIBGL_ALWAYS_SOFTWARE=1", "MESA_LOADER_DRIVER_OVERRIDE=zink", "VK_ICD_FILENAMES=" + kLavapipe,
           "XDG_RUNTIME_DIR=" + folder.path().string()};
 }
 

@@ -21,11 +21,12 @@
 #include <vulkan/vulkan.h>
 
 #include "tests/gpu/kernel_variants.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
 
-const std::filesystem::path kDriver = "/usr/share/vulkan/icd.d/radeon_icd.x86_64.json";
+const std::string kDriver = vulkan_driver("radeon");
 
 /// First binding of each kind of resource: GL counts them for each kind, Vulkan for all together.
 constexpr std::uint32_t kStorage = 0, kTexels = 32, kBlocks = 64, kImages = 96, kOfAKind = 16;

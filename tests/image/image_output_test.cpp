@@ -10,6 +10,8 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <set>
+#include <string>
 #include <string_view>
 
 #include <OpenImageIO/imageio.h>
@@ -313,10 +315,17 @@ TEST_F(ImageFile, PixelsOfFilmsAreThoseOfPng) {
   EXPECT_EQ(pixels, stored);
 }
 
-/// Returns the bytes up to the first chunk of pixels: sizes, colours, notes.
-std::vector<std::uint8_t> before_pixels(const std::vector<std::uint8_t>& png) {
-  constexpr std::string_view kPixels = "IDAT";
-  return {png.begin(), std::ranges::search(png, kPixels).begin() - 4};
+/// Returns the chunks before the pixels, which hold sizes, colours and notes. Those of Exif are left out:
+/// OpenImageIO 2.5 repeats notes there, and orders chunks anew.
+std::set<std::string> chunks_before_pixels(const std::vector<std::uint8_t>& png) {
+  constexpr std::size_t kSignature = 8, kBesideContent = 12;  // size, type and checksum
+  const std::string bytes(png.begin(), png.end());
+  std::set<std::string> chunks;
+  for (std::size_t at = kSignature, size = 0; bytes.compare(at + 4, 4, "IDAT") != 0; at += size) {
+    size = kBesideContent + (std::size_t{png[at + 2]} << 8 | png[at + 3]);
+    if (bytes.compare(at + 4, 4, "eXIf") != 0) chunks.insert(bytes.substr(at, size));
+  }
+  return chunks;
 }
 
 TEST_F(ImageFile, PngIsThatOfOpenImageIO) {
@@ -349,7 +358,7 @@ TEST_F(ImageFile, PngIsThatOfOpenImageIO) {
         for (const std::byte byte : bytes) theirs.push_back(std::to_integer<std::uint8_t>(byte));
       });
       const std::vector<std::uint8_t> ours = encode_png(image, pixels, 4);
-      EXPECT_EQ(before_pixels(ours), before_pixels(theirs));
+      EXPECT_EQ(chunks_before_pixels(ours), chunks_before_pixels(theirs));
       EXPECT_LT(ours.size(), theirs.size() + theirs.size() / 10 + 100);
       const std::string file = (folder_ / "p.png").string();
       std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(ours.data()), std::ssize(ours));

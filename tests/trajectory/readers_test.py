@@ -119,8 +119,10 @@ class Readers(unittest.TestCase):
                 far.atoms.positions = rng.uniform(-scale, scale, self.motion[0].shape)
                 far.trajectory.ts.dimensions = self.boxes[0]
                 writer.write(far.atoms)
-        frames = dump(path)
-        self.compare(frames, [step.positions.copy() for step in MDAnalysis.coordinates.core.reader(str(path))])
+        other = [step.positions.copy() for step in MDAnalysis.coordinates.core.reader(str(path))]
+        if np.abs(other[-1]).max() > 90000:
+            self.skipTest("this MDAnalysis breaks the positions of far atoms when it writes them")  # 2.9.0, in Debian 13
+        self.compare(dump(path), other)
 
     def test_xtc_of_small_differences_of_every_size(self):
         rng = np.random.default_rng(7)

