@@ -151,7 +151,7 @@ class TiffRows final : public RowEncoder {
   void add_row(std::span<const float> row) {
     constexpr float kLargest = std::numeric_limits<Sample>::max();
     for (const float value : row) {
-      const auto sample = static_cast<Sample>(std::clamp(value, 0.0f, 1.0f) * kLargest + 0.5f);
+      const auto sample = static_cast<Sample>(std::clamp(value * kLargest, 0.0f, kLargest) + 0.5f);
       const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&sample);
       strip_.insert(strip_.end(), bytes, bytes + sizeof sample);
     }
