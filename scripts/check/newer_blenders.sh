@@ -5,14 +5,14 @@
 # the wheel for linux-x64 in the folder MENISCUS_WHEELS, or of that libmeniscus, and used in an empty profile. The last
 # line says "cases N failures M", below a table in Markdown. Exit code 77: a Blender or its Python cannot be fetched.
 #
-#   scripts/check/newer_blenders.sh PROGRAM [VERSION...]     versions: 4.2 4.5 5.0 5.1 5.2 5.3 by default; newest: the registry's
+#   scripts/check/newer_blenders.sh PROGRAM [VERSION...]     versions: 4.2 to 5.3 by default; newest: the registry's
 #   MENISCUS_INSIDE="inside_blender inside_shot" ...   runs only these scripts
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=$(realpath "${1:?usage: scripts/check/newer_blenders.sh PROGRAM [VERSION...]}")
 shift
 versions=("${@:-4.2}")
-(($#)) || versions=(4.2 4.5 5.0 5.1 5.2 5.3)
+(($#)) || versions=(4.2 4.3 4.4 4.5 5.0 5.1 5.2 5.3)
 # 4.2.12 does not specify its databpy; a newer nodebpy breaks 520.2.0.
 declare -A molecular_nodes=([4.2]="4.2.12 databpy==0.0.14" [4.5]=4.5.11 [5.0]=4.5.11 [5.2]="520.2.0 nodebpy==520.30.0")
 tests=$PWD/tests/export/blender
@@ -59,6 +59,7 @@ for version in "${versions[@]}"; do
     packages=("bpy==$version.*")
     # shellcheck disable=SC2206  # several words are several packages
     [[ ${molecular_nodes[$version]:-} ]] && packages+=(molecularnodes==${molecular_nodes[$version]})
+    [[ $version == 4.[34] ]] && packages+=("numpy<2")  # they were compiled with NumPy 1, and do not say so
     unless_fetched "$home/bin/pip" install --quiet --no-compile --disable-pip-version-check "${packages[@]}"
     printf '#!/bin/sh\nexec "%s/bin/python" "%s/bpy_as_blender.py" "$@"\n' "$home" "$tests" >"$home/blender"
     chmod +x "$home/blender"
