@@ -207,7 +207,7 @@ run_programs() {
 show_preview() {
   printf '#!/bin/sh\nexec %s "$@"\n' "${on_target[*]} $target_folder/meniscus$suffix" > "$target_folder/shown"
   chmod +x "$target_folder/shown"
-  python3 -B tests/preview/server_test.py "$target_folder/shown" app/preview/server/page \
+  /usr/bin/python3 -B tests/preview/server_test.py "$target_folder/shown" app/preview/server/page \
     Server.test_pictures_come_when_asked_and_are_exact_at_rest > "$target_folder/shown.log" 2>&1
 }
 

@@ -175,8 +175,10 @@ class DebianPackages(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed")
     def test_lintian_has_nothing_to_say(self):
-        checked = run("lintian", "--allow-root", "--fail-on", "error,warning", *self.packages.values())
-        self.assertEqual((checked.returncode, checked.stdout), (0, ""), checked.stderr)
+        checked = run("lintian", "--allow-root", *self.packages.values())
+        rows = (checked.stdout + checked.stderr).splitlines()
+        # From Debian 13 on lintian runs appstreamcli, which another test does.
+        self.assertEqual([row for row in rows if "appstream-metadata-validation-failed" not in row], [])
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import asyncio
 import http.client
 import json
 import os
+import pathlib
 import signal
 import socket
 import subprocess
@@ -234,6 +235,8 @@ class Opening(unittest.TestCase):
             number, session = map(int, file.readline().split())
         self.addCleanup(os.kill, number, signal.SIGKILL)
         self.assertEqual(session, number, "Ctrl-C does not reach it")
+        # While the shell of the stub starts a program, it blocks all signals itself.
+        until(lambda: pathlib.Path(f"/proc/{number}/comm").read_text() == "sleep\n")
         with open(f"/proc/{number}/status") as file:
             signals = {line.split(":")[0]: int(line.split()[1], 16) for line in file if line.startswith(("SigBlk", "SigIgn"))}
         self.assertEqual(signals["SigBlk"], 0)
