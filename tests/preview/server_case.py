@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-import websockets
+from websockets.exceptions import InvalidHandshake
 
 from browser import Preview, ask, receive
 
@@ -49,7 +49,7 @@ class ServerCase(unittest.IsolatedAsyncioTestCase):
         return answer.status, answer.read(), answer.headers
 
     async def refused(self, status, socket=None, **options):
-        with self.assertRaises(websockets.exceptions.InvalidHandshake) as caught:
+        with self.assertRaises(InvalidHandshake) as caught:
             await (socket or self.preview.socket(**options))
         # Before version 14 of websockets the error had the status itself.
         self.assertEqual(getattr(caught.exception, "response", caught.exception).status_code, status)
