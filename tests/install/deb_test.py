@@ -128,6 +128,11 @@ class DebianPackages(unittest.TestCase):
                 if path.is_file() and not path.is_symlink():
                     self.assertNotIn(f"{ROOT}/".encode(), path.read_bytes(), path)
 
+    def test_programs_are_not_linked_with_the_folder_of_the_build(self):
+        """A path that is removed when a program is installed leaves room as long as it was."""
+        for name in ("meniscus", "meniscus-msms", "meniscus-nanoshaper", "meniscus-pdb_to_xyzr"):
+            self.assertNotIn(str(BUILD), run("readelf", "-d", BUILD / name).stdout, name)
+
     def test_made_again_elsewhere_a_package_has_the_same_bytes(self):
         with tempfile.TemporaryDirectory() as folder:
             done = pack(folder)
