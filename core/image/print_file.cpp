@@ -68,7 +68,7 @@ class TiffFile {
   }
 
  private:
-  // libtiff calls these functions with its `file` or `data`, which is this object.
+  // libtiff calls these functions; `file` and `data` point to this object.
   static int keep_error(TIFF*, void* data, const char*, const char* format, std::va_list values) {
     std::array<char, 256> text{};
     std::vsnprintf(text.data(), text.size(), format, values);
@@ -100,7 +100,8 @@ class TiffFile {
   Bytes bytes_;
   std::size_t place_ = 0;
   std::string error_;
-  std::unique_ptr<TIFF, void (*)(TIFF*)> tiff_{nullptr, TIFFClose};  // the last member, since TIFFClose may still write
+  // The last member is destroyed first: TIFFClose() may still write to the others.
+  std::unique_ptr<TIFF, void (*)(TIFF*)> tiff_{nullptr, TIFFClose};
 };
 
 /// Encodes a TIFF file strip by strip.
@@ -157,7 +158,7 @@ class TiffRows final : public RowEncoder {
     }
   }
 
-  bool has_words_;  // samples of 16 bits
+  bool has_words_;  // true if samples have 16 bits, false if they have 8
   std::uint32_t height_, row_ = 0;
   std::size_t row_size_;  // in samples
   Bytes strip_;

@@ -63,10 +63,10 @@ using ComputeSurface = std::function<Surface(std::span<const Ball> atoms, double
 /// Let H be the Hull of the large probe with `trim` taken off all around, and C the set of places where the small
 /// probe's centre can be so that the probe touches no atom and stays within H. The pockets are the connected components
 /// of the union of the probes in C: the part of the large probe's solid minus the small probe's that the small probe
-/// fills. Pockets leave out films in crevices, where it would extend out of H. The two probes are those of Kawabata &
-/// Go (Proteins 68, 516, 2007) and of Voss & Gerstein (Nucleic Acids Res. 38, W555, 2010); the trimming is that of
-/// Oliveira et al. (BMC Bioinformatics 15, 197, 2014). H is closed by large probes at places where they touch the
-/// molecule, as densely as the tolerance requires (probe_places()). The pockets are then cavities of one
+/// fills. Thin films in crevices belong to no pocket, because the small probe would extend out of H there. Kawabata &
+/// Go (Proteins 68, 516, 2007) and Voss & Gerstein (Nucleic Acids Res. 38, W555, 2010) use the same two probes;
+/// Oliveira et al. (BMC Bioinformatics 15, 197, 2014) trim in the same way. H is closed by large probes at places where
+/// they touch the molecule, as densely as the tolerance requires (probe_places()). The pockets are then cavities of one
 /// solvent-excluded surface, that of the atoms and of these probes, and have all properties of cavities in closed form.
 ///
 /// A mouth counts if it is larger than the tolerance alone can make it: 2 pi probe_radius tolerance, the cap of a probe
